@@ -1,0 +1,71 @@
+#pragma once
+// One family of bonds, cut into chunks.
+//
+// Elements are cut into blocks of equal length, and chunk c holds the bonds whose first element lies in block c, in the
+// order of their ids. A chunk adds its forces to the rows of its own block directly, in that order; forces on elements
+// of other blocks go to rows of the chunk's own beyond the elements (its halo), which are added to their elements
+// afterwards in a fixed order. So no two chunks write one row, nothing is stored per bond, and the sums do not depend
+// on how many threads share the chunks.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/domain/table.hpp"
+
+namespace beadwork {
+
+/// Length of the blocks into which `elements` are cut: from their number alone.
+Index block_length(Index elements);
+Index block_count(Index elements);
+
+struct Chunk {
+  Index begin = 0;      ///< first bond
+  Index live_end = 0;   ///< bonds from here on are broken and take part in nothing
+  Index end = 0;
+  Index halo_begin = 0;  ///< rows of the force line that this chunk alone writes
+  Index halo_end = 0;
+};
+
+class BondTable {
+ public:
+  explicit BondTable(std::string name);
+
+  const std::string& name() const { return name_; }
+  Table& rows() { return rows_; }
+  const Table& rows() const { return rows_; }
+  Index size() const { return rows_.size(); }
+  Index live() const;
+
+  /// Makes one row per pair, first < second, sorted by (first, second); ids count from `first_id`.
+  void create(std::vector<std::pair<Index, Index>> pairs, Index first_id);
+  /// Cuts into chunks for that many elements; halo rows count from `halo_begin`. Returns the end of the halo rows.
+  /// Kept columns alone decide the result, so it may be called again after a restart.
+  Index cut(Index elements, Index halo_begin);
+  /// (element, halo row) of every halo row, in the order in which they are to be added.
+  const std::vector<std::pair<Index, Index>>& halo() const { return halo_; }
+
+  const std::vector<Chunk>& chunks() const { return chunks_; }
+  View<const Index> first() const { return first_; }
+  View<const Index> second() const { return second_; }
+  /// Row of the force line that takes the second element's share: its own, or one of the halo.
+  View<const Index> target() const { return target_; }
+  View<const Index> id() const { return id_; }
+  View<State> state() const { return state_; }
+  /// Fetches the views anew after rows have moved.
+  void rebind();
+
+  /// Moves rows whose state is `broken` behind the live ones of their chunk; the order of ids among the live rows,
+  /// and so every sum, stays. Returns true if rows moved.
+  bool sweep();
+
+ private:
+  std::string name_;
+  Table rows_{Table::Layout::planes};
+  std::vector<Chunk> chunks_;
+  std::vector<std::pair<Index, Index>> halo_;
+  View<Index> first_, second_, target_, id_;
+  View<State> state_;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,67 @@
+#pragma once
+// What is simulated: elements, families of bonds between them, named sets, and one row of numbers for the scene.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/domain/bond_table.hpp"
+#include "core/domain/break_log.hpp"
+
+namespace beadwork {
+
+/// Rows of the element table, ascending.
+using Set = std::vector<Index>;
+
+class Domain {
+ public:
+  Domain();
+
+  Table& elements() { return elements_; }
+  const Table& elements() const { return elements_; }
+  Table& scene() { return scene_; }
+  const Table& scene() const { return scene_; }
+  Index size() const { return elements_.size(); }
+
+  /// Appends elements at rest, unturned; their other columns are zero. Returns the first new row.
+  Index add_elements(Index count);
+  /// New row i takes what stood in row order[i]; sets follow.
+  void reorder(const std::vector<Index>& order);
+
+  std::map<std::string, Set>& sets() { return sets_; }
+  /// Throws std::logic_error for an unknown name.
+  const Set& set(const std::string& name) const;
+
+  BondTable& add_family(const std::string& name);
+  BondTable* find_family(const std::string& name) const;
+  const std::vector<std::unique_ptr<BondTable>>& families() const { return families_; }
+  Index bonds() const;
+
+  BreakLog& breaks() { return breaks_; }
+  const BreakLog& breaks() const { return breaks_; }
+  const std::map<std::string, Set>& sets() const { return sets_; }
+
+  /// Cuts every family into chunks and gives the force line its halo rows.
+  void cut_families();
+  /// Adds the halo rows to their elements. To be called once all families have acted.
+  void gather();
+  /// Changes whenever rows may have moved, so that views must be fetched anew.
+  std::int64_t generation() const { return generation_; }
+  void touch() { ++generation_; }
+
+ private:
+  Table elements_{Table::Layout::rows};
+  Table scene_{Table::Layout::rows};
+  std::map<std::string, Set> sets_;
+  std::vector<std::unique_ptr<BondTable>> families_;
+  BreakLog breaks_;
+  struct Share {
+    Index element, begin, end;  ///< halo rows `shares_[begin..end)` belong to `element`
+  };
+  std::vector<Share> shares_;
+  std::vector<Index> share_rows_;
+  std::int64_t generation_ = 0;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,25 @@
+# beadwork_add_plugins(library source...): one shared library of plugins, one plugin per source file.
+#
+# The list that the library hands over is generated from the file names (bond/cohesive_beam.cpp holds class
+# CohesiveBeam), so a new plugin is one new file and no list is edited. Works in the tree and from the installed package.
+function(beadwork_add_plugins library)
+  set(declarations "")
+  set(entries "")
+  foreach(source IN LISTS ARGN)
+    get_filename_component(stem ${source} NAME_WE)
+    string(REPLACE "_" ";" words ${stem})
+    set(class "")
+    foreach(word IN LISTS words)
+      string(SUBSTRING ${word} 0 1 head)
+      string(SUBSTRING ${word} 1 -1 tail)
+      string(TOUPPER ${head} head)
+      string(APPEND class ${head}${tail})
+    endforeach()
+    string(APPEND declarations "beadwork::PluginEntry beadwork_plugin_${stem}();  // ${class}\n")
+    string(APPEND entries "    beadwork_plugin_${stem}(),\n")
+    set_source_files_properties(${source} PROPERTIES COMPILE_DEFINITIONS "BEADWORK_PLUGIN_STEM=${stem};BEADWORK_PLUGIN_CLASS=${class}")
+  endforeach()
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/${library}_list.cpp)
+  file(CONFIGURE OUTPUT ${list} CONTENT "@declarations@@entries@" @ONLY)
+  add_library(${library} MODULE ${ARGN} ${list})
+endfunction()
