@@ -1,0 +1,42 @@
+#pragma once
+// All complaints about a deck are gathered and shown together, so that one run of the program finds all
+// mistakes.
+
+#include <string>
+#include <vector>
+
+#include "core/base/location.hpp"
+
+namespace beadwork {
+
+class Complaints {
+ public:
+  void error(const Location& at, std::string message) { add(at, true, std::move(message)); }
+  void warning(const Location& at, std::string message) { add(at, false, std::move(message)); }
+
+  int errors() const { return errors_; }
+  int warnings() const { return warnings_; }
+  bool empty() const { return list_.empty(); }
+
+  /// In the format of a compiler, with the source line and a caret below each, and the number of errors at
+  /// the end. Order: by file as they first appeared, then by place; what stands nowhere comes last.
+  std::string text() const;
+
+  /// Throws DeckFailure(text()) if there is an error; warnings alone do not throw.
+  void throw_if_any() const;
+
+ private:
+  struct Complaint {
+    Location at;
+    bool is_error;
+    std::string message;
+  };
+
+  void add(const Location& at, bool is_error, std::string message);
+  std::vector<Complaint> in_order() const;
+
+  std::vector<Complaint> list_;
+  int errors_ = 0, warnings_ = 0;
+};
+
+}  // namespace beadwork

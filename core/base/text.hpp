@@ -1,0 +1,33 @@
+#pragma once
+// Small helpers on text: numbers without a locale, words, and the suggestion after a misspelt name.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace beadwork {
+
+/// The candidate nearest to the word by Damerau-Levenshtein distance, or "" if none is near.
+std::string closest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// What a complaint about an unknown name ends with: ". Did you mean <beam>?" or, where nothing is near and
+/// the list is short, "; known: beam, spring". `open` and `close` stand around the suggestion.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         std::string_view open = "'", std::string_view close = "'");
+
+/// The whole text as a finite decimal number with a point; nothing for "0,3", "1 ", "nan", "inf", "0x1", "".
+std::optional<double> parse_number(std::string_view text);
+
+/// The shortest text that reads back to the same number.
+std::string format_number(double value);
+
+std::string_view trim(std::string_view text);
+std::vector<std::string> split_words(std::string_view text);            ///< at white space; no empty words
+std::vector<std::string> split(std::string_view text, char separator);  ///< keeps empty pieces
+std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
+std::string kebab_from_snake(std::string_view name);  ///< free_filling -> free-filling
+std::string snake_from_kebab(std::string_view name);
+std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes
+
+}  // namespace beadwork

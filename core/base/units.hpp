@@ -1,0 +1,59 @@
+#pragma once
+// Quantities and their units. The names of units are those of UDUNITS-2; inside the program every value is in
+// SI.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace beadwork {
+
+/// Exponents of the SI base units. Angles are plain numbers. Fractions are allowed (Pa.m^0.5).
+struct Dimension {
+  std::array<double, 7> exponents{};  ///< m, kg, s, A, K, mol, cd
+
+  bool is_plain() const;     ///< a number without a unit
+  std::string name() const;  ///< an SI unit that find_unit understands: "Pa", "kg.m/s", "1"
+};
+bool operator==(const Dimension& a, const Dimension& b);
+Dimension operator*(const Dimension& a, const Dimension& b);
+Dimension operator/(const Dimension& a, const Dimension& b);
+Dimension power(const Dimension& a, double exponent);
+
+/// A value in SI units.
+struct Quantity {
+  double value = 0;
+  Dimension dimension;
+};
+
+struct Unit {
+  double scale = 1;  ///< SI units in one of it
+  Dimension dimension;
+
+  double to_si(double value) const;  ///< rounded once: 14 um is the number 14e-6 exactly
+  double from_si(double value) const;
+};
+
+/// A unit such as "mm", "N/mm^3", "J/m2", "kg.m-1.s-2", "MPa.m^0.5", "1/s", "percent" or "1": names joined by
+/// . * / with no spaces; t is the tonne. Nothing if unknown or if it has an offset (degC). Throws
+/// MachineFailure if the UDUNITS database cannot be read. Safe to call from several threads.
+std::optional<Unit> find_unit(std::string_view text);
+
+/// The unit that text begins with, and how many bytes it takes; for units that stand in expressions. There a
+/// negative exponent needs its ^ (3 s^-1), because 3 s-1 is a difference.
+struct LeadingUnit {
+  Unit unit;
+  std::size_t length;
+};
+std::optional<LeadingUnit> find_leading_unit(std::string_view text);
+
+/// Why `text` is no unit, with a suggestion: `unknown unit "mmm". Did you mean "mm"?`
+std::string why_no_unit(std::string_view text);
+
+/// A value in SI printed in a unit: format_quantity(0.014, "mm") is "14 mm". The unit must exist.
+std::string format_quantity(double si, std::string_view unit);
+/// A quantity printed in the SI unit of its dimension.
+std::string format_quantity(const Quantity& quantity);
+
+}  // namespace beadwork

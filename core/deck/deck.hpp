@@ -1,0 +1,52 @@
+#pragma once
+// The deck: the XML, read once, every node knowing its line and column.
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/complaints.hpp"
+#include "core/base/location.hpp"
+#include "core/deck/scope.hpp"
+
+namespace beadwork {
+
+struct Attribute {
+  std::string name, value;     ///< value with its entities decoded
+  Location name_at, value_at;  ///< value_at: its first character, behind the quote
+  mutable bool used = false;   ///< set by the readers (read.hpp); what stays unused is an error of the deck
+
+  /// Where the character value[offset] stands in the file.
+  Location place(std::size_t offset) const;
+};
+
+struct Node {
+  std::string tag;
+  Location at;  ///< of the tag's name
+  std::vector<Attribute> attributes;
+  std::vector<std::unique_ptr<Node>> children;
+
+  const Attribute* find(std::string_view name) const;  ///< the attribute, or null
+  const Node* child(std::string_view tag_name) const;  ///< the first child with this tag, or null
+};
+
+/// `--set name=value` of the command line.
+struct Override {
+  std::string name, value;
+};
+
+struct Deck {
+  std::unique_ptr<Node> root;  ///< <scene>; includes are spliced in, <include> and <parameter> are gone
+  Scope scope;
+  std::vector<std::shared_ptr<const Source>> sources;  ///< the deck, then its includes as they were met
+  std::string sha256;                                  ///< over the texts of all sources and the overrides
+  std::string path;
+};
+
+/// Reads a deck and what it includes. Complains about everything that can be said without knowing any plugin;
+/// null only if no tree could be made at all (and then there is an error).
+std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Override>& overrides,
+                                Complaints& complaints);
+
+}  // namespace beadwork

@@ -1,0 +1,65 @@
+#pragma once
+// Arithmetic on quantities: ${0.3*length}, where="x < 13.5 mm and radius > 2 um".
+//
+// Numbers may carry a unit (13.5 mm, 0.5 N/mm; the unit has no spaces in it and binds tighter than any
+// operator). Operators, loosest first: or || - and && - == != < <= > >= - + - * / - sign, not - ^ .
+// Functions: sqrt abs min max keep track of the dimension; sin cos tan asin acos atan exp log (natural, also
+// ln) log10 floor ceil round sign want plain numbers; if(condition, then, otherwise). pi is known. ${ } is a
+// pair of brackets. Both sides of + - and of a comparison need one dimension, a bare 0 too. Names of
+// parameters may hold . and -. A - directly between letters or digits belongs to the name if a parameter (or
+// variable) of that longer name exists, the longest wins; otherwise, or with spaces around it, it is a minus.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/complaints.hpp"
+#include "core/base/units.hpp"
+
+namespace beadwork {
+
+struct Attribute;
+class Scope;
+
+/// A name that gets its value at each evaluation.
+struct Variable {
+  std::string name;
+  Dimension dimension;
+};
+
+/// A checked expression. Compiled once; evaluating it is const, allocates little and may be done by several
+/// threads.
+class Expression {
+ public:
+  /// Nothing, and located errors, if it cannot be parsed or its dimensions do not fit together. Both sides of
+  /// if() are checked.
+  static std::optional<Expression> compile(std::string_view text, const Location& start, const Scope& scope,
+                                           std::span<const Variable> variables, Complaints& complaints);
+  /// The whole value of an attribute, which then counts as used.
+  static std::optional<Expression> compile(const Attribute& attribute, const Scope& scope,
+                                           std::span<const Variable> variables, Complaints& complaints);
+
+  const Dimension& dimension() const { return dimension_; }
+  bool is_condition() const { return is_condition_; }  ///< a comparison, not a number
+  bool uses(std::size_t variable) const;               ///< does its value depend on this one
+
+  /// In SI; a condition gives 1 or 0. `si_values` are in the order of the variables. The result may be NaN or
+  /// infinite (a condition on a NaN is NaN): it is the caller who knows how to say so.
+  double evaluate(std::span<const double> si_values = {}) const;
+
+  /// One step of the calculation: a function of earlier steps (see operations.hpp).
+  struct Step {
+    int operation = 0;
+    int a = 0, b = 0, c = 0;
+    double value = 0;
+  };
+
+ private:
+  std::vector<Step> steps_;  ///< straight-line: the last one is the result
+  Dimension dimension_;
+  bool is_condition_ = false;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,50 @@
+#pragma once
+// Typed readers for one attribute. Each returns nothing and complains, at the exact place, if the text is not
+// what is wanted; each marks the attribute as used. `unit` is the unit in which the reader's owner thinks
+// ("J/m2", "1"): only its dimension and its name in messages matter, results are always in SI.
+//
+// A value is a number with its unit, "13.5 mm", or ${expression}; "${2*n} mm" gives a plain result its unit.
+// In a list a unit holds for the number before it and for all bare numbers before that: "14 14 28 um".
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/complaints.hpp"
+#include "core/base/types.hpp"
+#include "core/base/units.hpp"
+#include "core/deck/deck.hpp"
+
+namespace beadwork {
+
+std::optional<double> read_quantity(const Attribute& attribute, std::string_view unit, const Scope& scope,
+                                    Complaints& complaints);
+std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view unit, const Scope& scope,
+                                Complaints& complaints);
+/// Any number of values, at least one.
+std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
+                                                   const Scope& scope, Complaints& complaints);
+std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
+                                         Complaints& complaints);
+std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
+                                 Complaints& complaints);  ///< yes no true false
+/// The text with every ${} replaced: ${name} by the text of the parameter, an expression by its value. Not
+/// empty.
+std::optional<std::string> read_text(const Attribute& attribute, const Scope& scope, Complaints& complaints);
+std::optional<std::vector<std::string>> read_words(const Attribute& attribute, const Scope& scope,
+                                                   Complaints& complaints);
+std::optional<std::string> read_choice(const Attribute& attribute, const std::vector<std::string>& allowed,
+                                       const Scope& scope, Complaints& complaints);
+
+/// How a message names what a unit stands for: `a length such as "1 mm"`, `a plain number`.
+std::string wanted_by(std::string_view unit);
+
+// The same on a text that is no attribute (a parameter's value): any dimension.
+std::optional<Quantity> quantity_of(std::string_view text, const Location& start, const Scope& scope,
+                                    Complaints& complaints);
+std::optional<std::string> text_of(std::string_view text, const Location& start, const Scope& scope,
+                                   Complaints& complaints);
+
+}  // namespace beadwork
