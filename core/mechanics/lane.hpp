@@ -1,0 +1,31 @@
+#pragma once
+// What a law may do with its number type T, besides + - * / and comparison: one scalar now, a pack of lanes
+// later. A law in the hot loop never branches on a T. It chooses with select(mask, a, b), so that each lane
+// may choose differently. Packs bring the same functions in their own namespace, where unqualified calls find
+// them.
+
+#include <cmath>
+#include <type_traits>
+
+#include "core/base/types.hpp"
+
+namespace beadwork {
+
+inline double sqrt(double a) { return std::sqrt(a); }
+inline float sqrt(float a) { return std::sqrt(a); }
+
+inline double min(double a, double b) { return b < a ? b : a; }
+inline float min(float a, float b) { return b < a ? b : a; }
+
+inline double max(double a, double b) { return a < b ? b : a; }
+inline float max(float a, float b) { return a < b ? b : a; }
+
+/// a where the mask holds, else b. Both are computed: neither may trap where it is not chosen.
+inline double select(bool mask, double a, double b) { return mask ? a : b; }
+inline float select(bool mask, float a, float b) { return mask ? a : b; }
+
+/// An argument that takes no part in the deduction of T, so that vector expressions (x2 - x1) convert to it.
+template <class T>
+using Same = std::type_identity_t<T>;
+
+}  // namespace beadwork
