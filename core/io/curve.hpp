@@ -1,0 +1,51 @@
+#pragma once
+// A curve as a table of comma-separated numbers that any program reads:
+//   step [1],time [s],force [N]
+//   0,0,0
+// Numbers are the shortest that read back to the same bits. Each row reaches the file as it is added.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/io/file.hpp"
+
+namespace beadwork {
+
+struct CurveColumn {
+  std::string name;
+  std::string unit = "1";
+};
+
+class Curve {
+ public:
+  /// Writes the first line. The step comes first by itself; `columns` follow it.
+  static Curve fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
+  /// Takes up a curve: drops rows after `step` and a last row that a kill has torn. A file that is not there is begun.
+  /// DeckFailure if its first line is another one.
+  static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns, std::int64_t step);
+
+  /// Throws MachineFailure if the row could not be written; the rows before it then still stand.
+  void add(std::int64_t step, std::span<const Real> values);
+  /// Waits until the disk has the rows; before a checkpoint, so that it never knows more than the curve.
+  void sync();
+  /// Writes a text about the curve beside it: curves/force.csv, curves/force.json.
+  void write_sidecar(const std::string& json) const;
+
+  const std::filesystem::path& file() const { return file_; }
+  std::size_t columns() const { return columns_; }
+
+ private:
+  Curve(std::filesystem::path file, std::size_t columns) : file_(std::move(file)), columns_(columns) {}
+  void open();
+
+  std::filesystem::path file_;
+  std::size_t columns_;
+  Descriptor descriptor_;
+  std::string row_;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,89 @@
+#pragma once
+// Records frames into run.h5, which can be opened at any moment, after a kill as well: each frame is a file of its
+// own that never changes, run.h5 links to them and is replaced as a whole, and an orderly end copies all into one file
+// (docs/decisions/run-h5.md).
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/domain/domain.hpp"
+#include "core/io/run_folder.hpp"
+
+namespace beadwork {
+
+/// What run.h5 says of the run as a whole.
+struct RunMeta {
+  std::string name;
+  std::string deck;                  ///< text as it was read
+  std::string resolved;              ///< text with every value in SI
+  std::string deck_sha256;
+  std::string version;
+  std::vector<std::string> plugins;  ///< "section/tag version path-of-library"
+  int threads = 1;
+  std::uint64_t seed = 0;
+  std::string packing;               ///< report on the packing, as JSON
+};
+
+struct FrameStamp {
+  std::int64_t step = 0;
+  Real time = 0;  ///< [s]
+  Index stage = 0;
+};
+
+struct FamilyRequest {
+  const BondTable* table = nullptr;
+  std::string law;                     ///< tag of the law
+  std::vector<const Column*> columns;  ///< besides id, ends and state, which are always written
+};
+
+struct FrameRequest {
+  std::vector<const Column*> elements;  ///< besides id, position and radius, which are always written
+  std::vector<FamilyRequest> bonds;     ///< families to write
+  bool picture = false;                 ///< the report is to draw this frame
+};
+
+class Recorder {
+ public:
+  struct Options {
+    bool single = false;  ///< real numbers with 32 bits
+    int gzip = 0;         ///< level, 0: none
+  };
+
+  /// Writes a run.h5 that has no frames yet.
+  static Recorder fresh(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain);
+  /// Takes up the frames up to and with `step` and drops later ones; breaks are those of the domain, as loaded.
+  static Recorder resume(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
+                         std::int64_t step);
+
+  /// Adds a frame. A second request at the same step adds its columns to the first one's.
+  void write(const FrameStamp& stamp, const FrameRequest& request, const Domain& domain);
+  /// Brings the log of breaks in run.h5 up to date without a frame.
+  void write_breaks(const Domain& domain);
+  /// For an orderly end: makes run.h5 one file that needs no other. Returns false, with run.h5 and the frames left
+  /// as they are and `reason` set, if that cannot be done (disk full).
+  bool consolidate(const Domain& domain, std::string& reason);
+
+ private:
+  struct Source {
+    std::string file;   ///< relative to the folder
+    std::string group;  ///< inside that file
+    std::string view;   ///< the frame's part of run.xmf
+  };
+
+  Recorder(const RunFolder& folder, RunMeta meta, Options options);
+  void take_up(std::int64_t step);
+  void take_up_file(const std::string& file, std::int64_t step);
+  void write_master(const Domain& domain) const;
+  void write_view() const;
+
+  std::filesystem::path root_, record_, view_, frames_folder_;
+  RunMeta meta_;
+  Options options_;
+  std::map<std::int64_t, Source> frames_;  ///< by step
+  FrameRequest latest_;
+  std::int64_t latest_step_ = -1;
+};
+
+}  // namespace beadwork
