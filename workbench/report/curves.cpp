@@ -1,0 +1,173 @@
+// Which columns of a curve are drawn in which chart, and in which units.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "workbench/report/chart.hpp"
+#include "workbench/report/sections.hpp"
+#include "workbench/report/text.hpp"
+
+namespace beadwork::report {
+
+namespace {
+
+constexpr int colors = 8;
+
+bool is_clock(const Column& c) { return c.name == "step" || c.name == "time"; }
+
+double largest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) most = std::max(most, std::abs(v));
+  return most;
+}
+
+std::vector<double> scaled(const std::vector<double>& values, double factor) {
+  std::vector<double> out(values);
+  for (double& v : out) v *= factor;
+  return out;
+}
+
+/// The sidecar's scale and unit for an axis ("x" or "y"), or one that reads well.
+Scale scale_for(const Curve& curve, const std::string& axis, const std::string& unit, double most) {
+  const auto factor = curve.sidecar.find(axis + "_scale");
+  if (factor != curve.sidecar.end() && factor->is_number())
+    return {factor->get<double>(), text_of(curve.sidecar, axis + "_unit", unit)};
+  return readable(unit, most);
+}
+
+const Column* abscissa(const Curve& curve) {
+  if (const Column* named = curve.table.find(text_of(curve.sidecar, "x"))) return named;
+  if (const Column* time = curve.table.find("time")) return time;
+  return &curve.table.columns[curve.table.columns.size() > 1 ? 1 : 0];
+}
+
+/// The columns to draw: those that the sidecar lists, else all but the clocks and x.
+std::vector<const Column*> ordinates(const Curve& curve, const Column* x) {
+  std::vector<const Column*> out;
+  const auto listed = curve.sidecar.find("y");
+  if (listed != curve.sidecar.end()) {
+    for (const Json& name : listed->is_array() ? *listed : Json::array({*listed}))
+      if (const Column* column = name.is_string() ? curve.table.find(name.get<std::string>()) : nullptr) out.push_back(column);
+  }
+  if (!out.empty()) return out;
+  for (const Column& column : curve.table.columns)
+    if (&column != x && !is_clock(column) && !column.is_reference()) out.push_back(&column);
+  if (out.empty())  // a table of references only
+    for (const Column& column : curve.table.columns)
+      if (&column != x && !is_clock(column)) out.push_back(&column);
+  return out;
+}
+
+std::string reference_label(const Column& column) {
+  std::string label = column.name.substr(std::string("reference").size());
+  label.erase(0, std::min(label.find_first_not_of(" :-_"), label.size()));
+  return label.empty() ? "reference" : label;
+}
+
+/// A column of a reference file, in the units of the axis: written in them already, or in those of the run.
+std::vector<double> in_units(const Column& column, const std::string& run_unit, const Scale& scale) {
+  if (column.unit == scale.unit) return column.values;
+  if (column.unit == run_unit) return scaled(column.values, scale.factor);
+  return {};
+}
+
+void add_references(Chart& chart, const Curve& curve, const Column& x, const std::string& unit, const Scale& sx,
+                    const Scale& sy) {
+  int color = static_cast<int>(chart.series.size());
+  const auto x_values = scaled(x.values, sx.factor);
+  for (const Column& column : curve.table.columns)
+    if (column.is_reference() && column.unit == unit && &column != &x)
+      chart.series.push_back(
+          {reference_label(column), x_values, scaled(column.values, sy.factor), color++ % colors, Stroke::dashed});
+  for (const Reference& reference : curve.references) {
+    const Column& rx = reference.table.columns[0];
+    const Column& ry = reference.table.columns[1];
+    Series series{reference.label, in_units(rx, x.unit, sx), in_units(ry, unit, sy), color % colors,
+                  rx.values.size() <= 60 ? Stroke::points : Stroke::dashed};
+    if (series.x.empty() || series.y.empty()) continue;
+    ++color;
+    chart.series.push_back(std::move(series));
+  }
+}
+
+std::vector<Marker> markers(const Table& table, const std::vector<FrameHead>& pictured) {
+  std::vector<Marker> out;
+  for (std::size_t k = 0; k < pictured.size(); ++k) out.push_back({row_at(table, pictured[k]), std::to_string(k + 1)});
+  return out;
+}
+
+/// One chart for all columns of one unit.
+std::string panel(const Curve& curve, const Column& x, const std::vector<const Column*>& group, bool alone,
+                  const std::vector<FrameHead>& pictured) {
+  double most = 0;
+  for (const Column* column : group) most = std::max(most, largest(column->values));
+  const std::string& unit = group.front()->unit;
+  const Scale sx = scale_for(curve, "x", x.unit, largest(x.values)), sy = scale_for(curve, "y", unit, most);
+  Chart chart;
+  const std::string named = text_of(curve.sidecar, "title", spaced(curve.name));
+  chart.title = alone || group.size() > 1 ? named : named + ": " + group.front()->name;
+  chart.x_name = text_of(curve.sidecar, "x_label", x.name);
+  chart.x_unit = sx.unit == "1" ? "" : sx.unit;
+  chart.x_label = with_unit(chart.x_name, sx.unit);
+  const std::string together = group.size() == 1 ? group.front()->name : "";
+  chart.y_label = with_unit(alone ? text_of(curve.sidecar, "y_label", together) : together, sy.unit);
+  const auto x_values = scaled(x.values, sx.factor);
+  for (const Column* column : group)
+    chart.series.push_back({column->name, x_values, scaled(column->values, sy.factor),
+                            static_cast<int>(chart.series.size()) % colors});
+  add_references(chart, curve, x, unit, sx, sy);
+  if (!is_clock(x) && group.size() == 1) chart.markers = markers(curve.table, pictured);
+  return figure(chart);
+}
+
+std::string charts_of(const Curve& curve, const std::vector<FrameHead>& pictured) {
+  const Column* x = abscissa(curve);
+  std::vector<std::vector<const Column*>> groups;
+  for (const Column* column : ordinates(curve, x)) {
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const auto& group) { return group.front()->unit == column->unit; });
+    if (same == groups.end())
+      groups.push_back({column});
+    else
+      same->push_back(column);
+  }
+  std::string out;
+  for (const auto& group : groups) out += panel(curve, *x, group, groups.size() == 1, pictured);
+  return out;
+}
+
+}  // namespace
+
+std::size_t row_at(const Table& table, const FrameHead& head) {
+  const Column* time = table.find("time");
+  const Column* clock = time ? time : table.find("step");
+  if (!clock) return std::numeric_limits<std::size_t>::max();
+  const double wanted = time ? head.time : static_cast<double>(head.step);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < clock->values.size(); ++i)
+    if (std::abs(clock->values[i] - wanted) < std::abs(clock->values[best] - wanted)) best = i;
+  return best;
+}
+
+std::string loading_at(const RunFolder& run, const FrameHead& head) {
+  for (const Curve& curve : run.curves) {
+    const Column* x = abscissa(curve);
+    const std::size_t row = row_at(curve.table, head);
+    if (is_ledger(curve) || is_clock(*x) || row >= x->values.size() || !curve.table.find("time")) continue;
+    const Scale scale = scale_for(curve, "x", x->unit, largest(x->values));
+    return text_of(curve.sidecar, "x_label", x->name) + " " + number(x->values[row] * scale.factor, 3) +
+           (scale.unit == "1" ? "" : " " + scale.unit);
+  }
+  return "";
+}
+
+std::string curves(const RunFolder& run, const std::vector<FrameHead>& pictured) {
+  std::string body;
+  for (const Curve& curve : run.curves)
+    if (!is_ledger(curve)) body += charts_of(curve, pictured);
+  return body.empty() ? "" : section("Curves", "<div class=\"charts\">" + body + "</div>");
+}
+
+}  // namespace beadwork::report

@@ -1,0 +1,138 @@
+// The pictures of the specimen: which frames, how large, and their captions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "workbench/report/sections.hpp"
+#include "workbench/report/specimen.hpp"
+#include "workbench/report/text.hpp"
+
+namespace beadwork::report {
+
+namespace {
+
+constexpr int widest = 1120, tallest = 460;  ///< pixels
+
+int width_in_pixels(const Camera& camera) {
+  return std::max(1, std::min(widest, static_cast<int>(std::lround(tallest * camera.width / camera.height))));
+}
+
+std::string css(Color c) {
+  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255), std::lround(c.blue * 255));
+}
+
+std::string swatch(const std::string& label, Color c) {
+  return fmt::format("<span><i class=\"key disc\" style=\"background:{}\"></i>{}</span>", css(c), escaped(label));
+}
+
+/// A bar of a round length, about a sixth of the picture.
+std::string scale_bar(const Camera& camera) {
+  Real length = std::pow(10, std::floor(std::log10(camera.width / 6)));
+  for (const Real nice : {5.0, 2.0})
+    if (nice * length <= camera.width / 4) {
+      length *= nice;
+      break;
+    }
+  const Scale scale = readable("m", length);
+  return fmt::format("<i class=\"scale\" style=\"width:{:.2f}%\"><b>{} {}</b></i>", 100 * length / camera.width,
+                     number(length * scale.factor), scale.unit);
+}
+
+std::string picture(const Stage& stage, const View& view, const Frame& frame, const std::string& name) {
+  const Image image = draw(stage, view, frame, width_in_pixels(view.camera));
+  const auto bytes = png(image);
+  return fmt::format("<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">{}</div>",
+                     base64(bytes.data(), bytes.size()), image.width, image.height, escaped(name + ", " + view.name),
+                     scale_bar(view.camera));
+}
+
+std::string states_of(const Counts& n) {
+  if (n.elastic + n.softening + n.broken == 0) return "";
+  const auto item = [](const char* kind, std::size_t many, Color c) {
+    return swatch(count(static_cast<std::int64_t>(many)) + " " + kind, c);
+  };
+  return "<span class=\"states\">" + item("elastic", n.elastic, palette::elastic) +
+         item("softening", n.softening, palette::softening) + item("broken", n.broken, palette::broken) + "</span>";
+}
+
+std::string figure_of(const RunFolder& run, const Stage& stage, const Frame& frame, std::size_t place) {
+  const std::string loading = loading_at(run, frame.head);
+  const Scale scale = readable("s", frame.head.time);
+  const std::string when =
+      "step " + count(frame.head.step) + ", time " + number(frame.head.time * scale.factor) + " " + scale.unit;
+  std::string out = fmt::format(
+      "<figure class=\"frame\"><figcaption><span class=\"no\">{}</span><b>{}</b> <span class=\"when\">{}</span>{}</figcaption>",
+      place, escaped(loading.empty() ? when : loading), loading.empty() ? "" : escaped(when), states_of(counts(stage, frame)));
+  for (const View& view : stage.views) out += picture(stage, view, frame, run.scene + ", " + when);
+  return out + "</figure>\n";
+}
+
+std::string explanation(const Stage& stage, bool bonds) {
+  std::string out = "<p>";
+  for (const View& view : stage.views) {
+    std::string sentence = view.name;
+    sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+    out += escaped(sentence) + (view.show == Show::bonds ? ", not deformed. " : ". ");
+  }
+  out += stage.magnification > 1 ? "Displacements are magnified " + number(stage.magnification) + " times."
+                                 : "Displacements are true to scale.";
+  out += "</p><div class=\"legend\">";
+  if (bonds)
+    out += swatch("elastic", palette::elastic) + swatch("softening", palette::softening) + swatch("broken", palette::broken);
+  for (const Legend& set : stage.sets) out += swatch("set " + set.label, set.color);
+  return out + "</div>";
+}
+
+std::vector<Frame> read_frames(RunFolder& run, const std::vector<FrameHead>& heads) {
+  std::vector<Frame> frames;
+  for (const FrameHead& head : heads) {
+    try {
+      frames.push_back(run.record->read(head));
+    } catch (const std::exception& problem) {
+      run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() + ").");
+    }
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::vector<FrameHead> frames_to_show(const RunFolder& run, std::size_t most) {
+  if (!run.record) return {};
+  const std::vector<FrameHead>& all = run.record->frames();
+  std::vector<FrameHead> flagged;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(flagged), [](const FrameHead& h) { return h.picture; });
+  const std::vector<FrameHead>& from = flagged.empty() ? all : flagged;
+  if (from.size() <= most) return from;
+  std::vector<FrameHead> chosen;
+  for (std::size_t k = 0; k < most; ++k)
+    chosen.push_back(from[most == 1 ? from.size() - 1 : k * (from.size() - 1) / (most - 1)]);
+  return chosen;
+}
+
+std::string pictures(RunFolder& run, const std::vector<FrameHead>& pictured) {
+  if (!run.record) return "";
+  if (pictured.empty()) {
+    run.notes.emplace_back("run.h5 holds no frames, so there are no pictures of the specimen.");
+    return "";
+  }
+  std::vector<Frame> frames = read_frames(run, pictured);
+  std::vector<Frame> first = read_frames(run, {run.record->frames().front()});
+  std::erase_if(frames, [](const Frame& f) { return f.position.empty(); });
+  if (frames.empty()) return "";
+  const Frame& rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
+  for (Frame& frame : frames) complete_displacement(frame, rest);
+  const Stage stage = set_up(rest, frames, run.record->sets());
+  const bool bonds = std::any_of(frames.begin(), frames.end(), [](const Frame& f) { return !f.bonds.empty(); });
+  const double shape = stage.views.front().camera.width / stage.views.front().camera.height;
+  std::string body = explanation(stage, bonds) + (shape > 2.2 ? "<div class=\"frames wide\">" : "<div class=\"frames\">");
+  for (const Frame& frame : frames) {
+    const auto head = std::find_if(pictured.begin(), pictured.end(), [&](const FrameHead& h) { return h.name == frame.head.name; });
+    body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
+  }
+  return section("The specimen", body + "</div>");
+}
+
+}  // namespace beadwork::report

@@ -1,0 +1,84 @@
+#include "workbench/report/report.hpp"
+
+#include <fstream>
+
+#include "core/base/failure.hpp"
+#include "workbench/report/page_style.hpp"
+#include "workbench/report/sections.hpp"
+#include "workbench/report/text.hpp"
+
+namespace beadwork::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The class decides the badge's colour; a status that nobody foresaw is shown as it is, in grey.
+std::string badge(const std::string& status) {
+  const bool known = status == "done" || status == "failed" || status == "interrupted";
+  return "<span class=\"badge " + std::string(known ? status : "other") + "\">" + escaped(status) + "</span>";
+}
+
+std::string header(const RunFolder& run) {
+  std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status);
+  const std::string reason = text_of(run.summary, "exit_reason");
+  if (!reason.empty()) out += "<p>" + escaped(reason) + "</p>";
+  return out;
+}
+
+std::string notes(const RunFolder& run) {
+  std::string items;
+  for (const std::string& sentence : run.notes) items += "<li>" + escaped(sentence) + "</li>";
+  return items.empty() ? "" : "<section class=\"notes\"><ul>" + items + "</ul></section>\n";
+}
+
+/// Replaces @name@ in the template. What is put in is not searched again, so a deck may hold @title@.
+std::string filled(std::string_view page, const std::string& title, const std::string& head, const std::string& body) {
+  std::string out;
+  while (!page.empty()) {
+    const auto start = page.find('@');
+    const auto end = page.find('@', start == std::string_view::npos ? start : start + 1);
+    out += page.substr(0, start);
+    if (end == std::string_view::npos) break;
+    const std::string_view name = page.substr(start + 1, end - start - 1);
+    if (name == "title") out += title;
+    if (name == "style") out += page_style;
+    if (name == "header") out += head;
+    if (name == "body") out += body;
+    page.remove_prefix(end + 1);
+  }
+  return out;
+}
+
+/// Beside and then renamed, so that an older report stays whole until the new one is.
+void write(const fs::path& file, const std::string& text) {
+  const fs::path beside = file.string() + ".part";
+  {
+    std::ofstream out(beside, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.close();
+    if (!out) {
+      std::error_code ignored;
+      fs::remove(beside, ignored);
+      throw MachineFailure("cannot write '" + file.string() + "': is the folder writable, and is there room?");
+    }
+  }
+  std::error_code problem;
+  fs::rename(beside, file, problem);
+  if (problem) throw MachineFailure("cannot write '" + file.string() + "': " + problem.message());
+}
+
+}  // namespace
+
+std::string write_report(const fs::path& run_folder) {
+  RunFolder run = open_run(run_folder);
+  const std::vector<FrameHead> shown = frames_to_show(run);
+  const std::string seen = pictures(run, shown);  // first: it may add notes
+  std::string body = facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
+  body = notes(run) + body;
+  const fs::path file = run_folder / "report.html";
+  write(file, filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body));
+  return file.string();
+}
+
+}  // namespace beadwork::report

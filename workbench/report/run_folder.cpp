@@ -1,0 +1,139 @@
+#include "workbench/report/run_folder.hpp"
+
+#include <algorithm>
+
+#include "core/base/failure.hpp"
+#include "workbench/report/text.hpp"
+
+namespace beadwork::report {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Json read_json(const fs::path& file, std::vector<std::string>& notes) {
+  if (!fs::exists(file)) return Json::object();
+  Json json = Json::parse(read_text(file), nullptr, false);
+  if (json.is_object()) return json;
+  notes.push_back(file.filename().string() + " is not readable as JSON and was left out.");
+  return Json::object();
+}
+
+std::vector<fs::path> files_ending(const fs::path& folder, const std::string& ending) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() == ending) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void note_dropped(const Table& table, const std::string& name, std::vector<std::string>& notes) {
+  if (table.dropped_rows > 0)
+    notes.push_back("In curves/" + name + ", " + plural(table.dropped_rows, "row") +
+                    (table.dropped_rows == 1 ? " was" : " were") + " cut off or not numbers, and left out.");
+}
+
+/// A reference is named by its file, or by {"file": ..., "label": ...}.
+void read_references(Curve& curve, const fs::path& folder, std::vector<std::string>& notes) {
+  const auto listed = curve.sidecar.find("references");
+  if (listed == curve.sidecar.end() || !listed->is_array()) return;
+  for (const Json& entry : *listed) {
+    const std::string file = entry.is_string() ? entry.get<std::string>() : text_of(entry, "file");
+    const fs::path path = folder / "references" / fs::path(file).filename();
+    Reference reference{text_of(entry, "label"), read_table(path, false)};
+    if (reference.table.columns.size() < 2 || reference.table.rows() == 0) {
+      notes.push_back("The reference curves/references/" + path.filename().string() + " is missing or empty.");
+      continue;
+    }
+    note_dropped(reference.table, "references/" + path.filename().string(), notes);
+    if (reference.label.empty()) reference.label = reference.table.columns[1].name;
+    curve.references.push_back(std::move(reference));
+  }
+}
+
+void read_curves(RunFolder& run) {
+  const fs::path folder = run.folder / "curves";
+  for (const fs::path& file : files_ending(folder, ".csv")) {
+    Curve curve;
+    curve.name = file.stem().string();
+    curve.table = read_table(file, true);
+    note_dropped(curve.table, file.filename().string(), run.notes);
+    curve.sidecar = read_json(fs::path(file).replace_extension(".json"), run.notes);
+    if (curve.table.rows() == 0) {
+      run.notes.push_back("curves/" + file.filename().string() + " holds no rows yet.");
+      continue;
+    }
+    read_references(curve, folder, run.notes);
+    run.curves.push_back(std::move(curve));
+  }
+  // What a sidecar describes was meant to be looked at: it comes before the rest.
+  std::stable_partition(run.curves.begin(), run.curves.end(), [](const Curve& c) { return !c.sidecar.empty(); });
+  if (run.curves.empty()) run.notes.push_back("There are no curves: no watcher wrote any, or the run ended before.");
+}
+
+void read_record(RunFolder& run) {
+  const fs::path file = run.folder / "run.h5";
+  if (!fs::exists(file)) {
+    run.notes.push_back("There is no run.h5, so there are no pictures of the specimen and no log of breaks.");
+    return;
+  }
+  try {
+    run.record = std::make_unique<FrameReader>(file);
+  } catch (const std::exception& problem) {
+    run.notes.push_back("run.h5 cannot be read, so there are no pictures of the specimen (" +
+                        std::string(problem.what()) + ").");
+    return;
+  }
+  if (const int lost = run.record->unreadable_frames(); lost > 0)
+    run.notes.push_back(plural(lost, "frame") + " of run.h5 cannot be read, and " + (lost == 1 ? "was" : "were") +
+                        " left out.");
+}
+
+/// The name is the first `name` of the deck's outermost tag; the deck has been checked when the run wrote it.
+std::string name_in_deck(const std::string& deck) {
+  const auto tag = deck.find("<scene");
+  const auto end = deck.find('>', std::min(tag, deck.size()));
+  const auto start = deck.find("name=\"", std::min(tag, deck.size()));
+  if (start == std::string::npos || start > end) return "";
+  return deck.substr(start + 6, deck.find('"', start + 6) - start - 6);
+}
+
+void read_status(RunFolder& run) {
+  run.status = text_of(run.summary, "status");
+  if (!run.status.empty() && run.status != "running") return;
+  run.status = "unfinished";
+  run.notes.emplace_back(
+      "The run has not said how it ended: it is still going on, or it was killed. What follows is what it had written.");
+}
+
+}  // namespace
+
+std::string text_of(const Json& json, const std::string& key, const std::string& otherwise) {
+  if (!json.is_object()) return otherwise;
+  const auto found = json.find(key);
+  if (found == json.end()) return otherwise;
+  return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
+RunFolder open_run(const fs::path& folder) {
+  if (!fs::is_directory(folder)) throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
+  const auto written = {"summary.json", "resolved.xml", "run.log", "curves", "run.h5"};
+  if (std::none_of(written.begin(), written.end(), [&](const char* name) { return fs::exists(folder / name); }))
+    throw MachineFailure("'" + folder.string() +
+                         "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, curves, run.h5");
+  RunFolder run;
+  run.folder = folder;
+  run.summary = read_json(folder / "summary.json", run.notes);
+  run.deck = read_text(folder / "resolved.xml");
+  run.log = read_text(folder / "run.log");
+  read_status(run);
+  run.scene = text_of(run.summary, "scene", text_of(run.summary, "name"));
+  if (run.scene.empty()) run.scene = name_in_deck(run.deck);
+  if (run.scene.empty()) run.scene = fs::weakly_canonical(folder).filename().string();
+  read_curves(run);
+  read_record(run);
+  return run;
+}
+
+}  // namespace beadwork::report

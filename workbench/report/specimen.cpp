@@ -1,0 +1,288 @@
+#include "workbench/report/specimen.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+namespace beadwork::report {
+
+namespace {
+
+struct Box {
+  Vec3 low, high;
+  Vec3 size() const { return high - low; }
+};
+
+bool finite(const Vec3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
+
+Vec3 at_rest(const Frame& frame, std::size_t i) {
+  return frame.displacement.empty() ? frame.position[i] : Vec3(frame.position[i] - frame.displacement[i]);
+}
+
+Vec3 magnified(const Frame& frame, std::size_t i, Real factor) {
+  return frame.displacement.empty() ? frame.position[i]
+                                    : Vec3(frame.position[i] + (factor - 1) * frame.displacement[i]);
+}
+
+/// The box around the elements, but for the few that flew away when they ended outside `reach` times the median's box.
+template <class Place>
+Box box_of(const Frame& frame, const Place& place) {
+  Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+  for (std::size_t i = 0; i < frame.position.size(); ++i) {
+    const Vec3 p = place(i);
+    if (!finite(p)) continue;
+    box.low = box.low.cwiseMin(p - Vec3::Constant(frame.radius[i]));
+    box.high = box.high.cwiseMax(p + Vec3::Constant(frame.radius[i]));
+  }
+  if (box.low.x() > box.high.x()) return {Vec3::Zero(), Vec3::Ones()};
+  return box;
+}
+
+bool is_interface(const Stage& stage, const FrameBonds& bonds) {
+  return std::find(stage.interfaces.begin(), stage.interfaces.end(), bonds.family) != stage.interfaces.end();
+}
+
+/// A family that softens is drawn whole if it is a surface, not the bulk of the specimen.
+std::vector<std::string> find_interfaces(const std::vector<Frame>& shown) {
+  std::vector<std::string> names;
+  for (const Frame& frame : shown)
+    for (const FrameBonds& bonds : frame.bonds) {
+      const bool softens = bonds.has_damage || bonds.law.find("contact") != std::string::npos ||
+                           std::find(bonds.state.begin(), bonds.state.end(), BondState::softening) != bonds.state.end();
+      const bool surface = bonds.ends.size() < frame.position.size();
+      if (softens && surface && std::find(names.begin(), names.end(), bonds.family) == names.end())
+        names.push_back(bonds.family);
+    }
+  return names;
+}
+
+/// Largest of 1, 2, 5, 10, ... with which displacements stay below a twelfth of the specimen's length.
+Real choose_magnification(const std::vector<Frame>& shown, Real length) {
+  Real largest = 0;
+  for (const Frame& frame : shown) {
+    std::vector<Real> sizes;
+    for (const Vec3& u : frame.displacement)
+      if (finite(u)) sizes.push_back(u.norm());
+    if (sizes.empty()) continue;
+    // The hundredth part that moves most may be splinters; what they do is not the deformation.
+    const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 99 / 100);
+    std::nth_element(sizes.begin(), rank, sizes.end());
+    largest = std::max(largest, *rank);
+  }
+  if (!(largest > 1e-9 * length)) return 1;
+  const Real room = length / 12 / largest;
+  Real factor = 1;
+  for (Real power = 1; power < 1e4; power *= 10)
+    for (const Real nice : {1.0, 2.0, 5.0})
+      if (nice * power <= room) factor = nice * power;
+  return factor;
+}
+
+/// Mean square of the bonds' directions along x, y, z; zero if there is nothing to look at.
+Vec3 directions(const Stage& stage, const Frame& frame) {
+  Vec3 sum = Vec3::Zero();
+  for (const FrameBonds& bonds : frame.bonds)
+    for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
+      if (!is_interface(stage, bonds) && bonds.state[b] == BondState::elastic) continue;
+      const auto [i, j] = bonds.ends[b];
+      const Vec3 along = at_rest(frame, static_cast<std::size_t>(j)) - at_rest(frame, static_cast<std::size_t>(i));
+      const Real square = along.squaredNorm();
+      if (square > 0 && std::isfinite(square)) sum += along.cwiseProduct(along) / square;
+    }
+  return sum.sum() > 0 ? Vec3(sum / sum.sum()) : Vec3(Vec3::Zero());
+}
+
+struct Axes3 {
+  int right, up;
+};
+
+/// Right is the longer of the two axes in the picture; z stands up wherever it is not right.
+Axes3 looking_along(int axis, const Vec3& size) {
+  int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  if (std::abs(size[a] - size[b]) < 0.2 * std::max(size[a], size[b]) ? b < a : size[b] > size[a]) std::swap(a, b);
+  return {a, b};
+}
+
+View view_along(Show show, const std::string& name, int axis, const Box& box, Real margin) {
+  static constexpr std::array<const char*, 3> letters = {"x", "y", "z"};
+  const auto [right, up] = looking_along(axis, box.size());
+  View view;
+  view.show = show;
+  view.name = name + ", " + letters[static_cast<std::size_t>(right)] + " to the right, " +
+              letters[static_cast<std::size_t>(up)] + " up";
+  view.camera.right = Vec3::Unit(right);
+  view.camera.up = Vec3::Unit(up);
+  view.camera.centre = 0.5 * (box.low + box.high);
+  view.camera.width = box.size()[right] + 2 * margin;
+  view.camera.height = box.size()[up] + 2 * margin;
+  return view;
+}
+
+int largest_axis(const Vec3& v) { return v.x() >= v.y() && v.x() >= v.z() ? 0 : v.y() >= v.z() ? 1 : 2; }
+int smallest_axis(const Vec3& v) { return largest_axis(-v); }
+
+/// Along which axes to look at the bodies, and at the bonds (-1: not at all).
+///
+/// A plane of weak bonds (an interface, a crack) is seen from its edge and from above, its longest side to the right.
+/// Around a fibre the bonds have no direction along it: look down the fibre. Otherwise the broadest face is shown.
+std::pair<int, int> choose_axes(const Vec3& weak, const Vec3& size) {
+  if (weak.isZero()) return {smallest_axis(size), -1};
+  const int normal = largest_axis(weak);
+  if (weak[normal] > 0.5) {
+    const int a = (normal + 1) % 3, b = (normal + 2) % 3;
+    return {size[a] < size[b] ? a : b, normal};
+  }
+  const int fibre = smallest_axis(weak);
+  return {fibre, (fibre + 1) % 3};
+}
+
+Box stage_box(const Stage& stage, const Box& rest, const std::vector<Frame>& shown) {
+  Box all = rest;
+  for (const Frame& frame : shown) {
+    const Box box = box_of(frame, [&](std::size_t i) { return magnified(frame, i, stage.magnification); });
+    all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
+  }
+  // Splinters may fly far; the picture stays with the specimen.
+  const Vec3 room = Vec3::Constant(0.35 * rest.size().maxCoeff());
+  return {all.low.cwiseMax(rest.low - room), all.high.cwiseMin(rest.high + room)};
+}
+
+/// The smallest set that holds an element gives its colour: a grip shows on the ply that it holds.
+void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64_t>>& sets, std::size_t elements) {
+  std::vector<const std::pair<const std::string, std::vector<std::int64_t>>*> by_size;
+  for (const auto& set : sets)
+    if (!set.second.empty()) by_size.push_back(&set);
+  std::stable_sort(by_size.begin(), by_size.end(), [](auto* a, auto* b) { return a->second.size() > b->second.size(); });
+  std::size_t next = 0;
+  for (const auto* set : by_size) {
+    if (set->second.size() == elements && by_size.size() > 1) continue;  // everything: says nothing
+    const Color c = palette::sets[next++ % std::size(palette::sets)];
+    stage.sets.push_back({set->first, c});
+    for (const std::int64_t id : set->second) stage.element_color[id] = c;
+  }
+}
+
+/// The worst state of the bonds at each element.
+std::vector<BondState> worst_states(const Frame& frame) {
+  std::vector<BondState> worst(frame.position.size(), BondState::elastic);
+  for (const FrameBonds& bonds : frame.bonds)
+    for (std::size_t b = 0; b < bonds.ends.size(); ++b)
+      for (const Index end : bonds.ends[b]) {
+        BondState& state = worst[static_cast<std::size_t>(end)];
+        state = std::max(state, bonds.state[b]);
+      }
+  return worst;
+}
+
+Color color_of(BondState state) {
+  return state == BondState::broken ? palette::broken : state == BondState::softening ? palette::softening : palette::elastic;
+}
+
+Color base_color(const Stage& stage, std::int64_t id) {
+  const auto found = stage.element_color.find(id);
+  return found == stage.element_color.end() ? palette::body : found->second;
+}
+
+Real mean_radius(const Frame& frame) {
+  Real sum = 0;
+  for (const Real r : frame.radius) sum += r;
+  return frame.radius.empty() ? 1 : sum / static_cast<Real>(frame.radius.size());
+}
+
+void draw_bodies(Canvas& canvas, const Stage& stage, const Frame& frame) {
+  const auto worst = worst_states(frame);
+  for (std::size_t i = 0; i < frame.position.size(); ++i) {
+    const Vec3 place = magnified(frame, i, stage.magnification);
+    if (!finite(place) || !(frame.radius[i] > 0)) continue;
+    const Color base = base_color(stage, frame.id[i]);
+    canvas.sphere(place, frame.radius[i],
+                  worst[i] == BondState::elastic ? base : mix(base, color_of(worst[i]), 0.88F));
+  }
+  canvas.darken_hollows(4 * mean_radius(frame));
+}
+
+void draw_bond(Canvas& canvas, const Frame& frame, const std::array<Index, 2>& ends, Color c) {
+  const auto i = static_cast<std::size_t>(ends[0]), j = static_cast<std::size_t>(ends[1]);
+  const Vec3 a = at_rest(frame, i), b = at_rest(frame, j);
+  const Vec3 along = b - a;
+  const Real length = along.norm();
+  if (!finite(a) || !finite(b) || !(length > 0)) return;
+  const Vec3 middle = a + along * (frame.radius[i] / (frame.radius[i] + frame.radius[j]));
+  canvas.disc(middle, along / length, 0.8 * std::min(frame.radius[i], frame.radius[j]), c);
+}
+
+void draw_bonds(Canvas& canvas, const Stage& stage, const Frame& frame) {
+  for (std::size_t i = 0; i < frame.position.size(); ++i)
+    if (finite(at_rest(frame, i)) && frame.radius[i] > 0) canvas.sphere(at_rest(frame, i), frame.radius[i], palette::body);
+  canvas.darken_hollows(4 * mean_radius(frame));
+  canvas.fade(0.38F);
+  // Broken over softening over elastic: what went wrong is never hidden by what is sound.
+  for (const BondState state : {BondState::elastic, BondState::softening, BondState::broken}) {
+    canvas.flatten();
+    for (const FrameBonds& bonds : frame.bonds) {
+      if (state == BondState::elastic && !is_interface(stage, bonds)) continue;
+      for (std::size_t b = 0; b < bonds.ends.size(); ++b)
+        if (bonds.state[b] == state) draw_bond(canvas, frame, bonds.ends[b], color_of(state));
+    }
+  }
+}
+
+}  // namespace
+
+void complete_displacement(Frame& frame, const Frame& first) {
+  if (!frame.displacement.empty()) return;
+  std::unordered_map<std::int64_t, std::size_t> row;
+  for (std::size_t i = 0; i < first.id.size(); ++i) row[first.id[i]] = i;
+  for (std::size_t i = 0; i < frame.position.size(); ++i) {
+    const auto found = row.find(frame.id[i]);
+    frame.displacement.push_back(found == row.end() ? Vec3(Vec3::Zero())
+                                                    : Vec3(frame.position[i] - at_rest(first, found->second)));
+  }
+}
+
+Stage set_up(const Frame& first, const std::vector<Frame>& shown,
+             const std::map<std::string, std::vector<std::int64_t>>& sets) {
+  Stage stage;
+  const Box rest = box_of(first, [&](std::size_t i) { return at_rest(first, i); });
+  const Real margin = std::max(mean_radius(first), 0.01 * rest.size().maxCoeff());
+  stage.magnification = choose_magnification(shown, rest.size().maxCoeff());
+  stage.interfaces = find_interfaces(shown);
+  color_sets(stage, sets, first.position.size());
+  const Vec3 weak = shown.empty() ? Vec3(Vec3::Zero()) : directions(stage, shown.back());
+  const auto [bodies, bonds] = choose_axes(weak, rest.size());
+  const Box around = stage_box(stage, rest, shown);
+  stage.views.push_back(view_along(Show::bodies, bonds < 0 ? "the specimen" : "side view", bodies, around, margin));
+  if (bonds >= 0) {
+    View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface", bonds, rest, margin);
+    // One scale above the other where both have the same axis to the right, so that fronts stand in line.
+    View& side = stage.views.front();
+    if (plan.camera.right == side.camera.right) {
+      plan.camera.width = side.camera.width;
+      plan.camera.centre += (side.camera.centre - plan.camera.centre).dot(plan.camera.right) * plan.camera.right;
+    }
+    stage.views.push_back(plan);
+  }
+  return stage;
+}
+
+Counts counts(const Stage& stage, const Frame& frame) {
+  Counts out;
+  for (const FrameBonds& bonds : frame.bonds) {
+    if (!stage.interfaces.empty() && !is_interface(stage, bonds)) continue;
+    for (const BondState state : bonds.state)
+      ++(state == BondState::broken ? out.broken : state == BondState::softening ? out.softening : out.elastic);
+  }
+  return out;
+}
+
+Image draw(const Stage& stage, const View& view, const Frame& frame, int width) {
+  Canvas canvas(view.camera, width);
+  if (view.show == Show::bodies)
+    draw_bodies(canvas, stage, frame);
+  else
+    draw_bonds(canvas, stage, frame);
+  return canvas.image();
+}
+
+}  // namespace beadwork::report

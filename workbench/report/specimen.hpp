@@ -1,0 +1,63 @@
+#pragma once
+// How a specimen is looked at: which directions show it best, how much its displacements are magnified, what is
+// coloured how. One stage serves all frames of a run, so that its pictures can be compared.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/io/frame_reader.hpp"
+#include "core/io/picture.hpp"
+
+namespace beadwork::report {
+
+/// Told apart by lightness as well as hue, so that they stay apart for colour-blind eyes and on grey paper.
+namespace palette {
+constexpr Color elastic = color(0x7FA8CC), softening = color(0xF5B02E), broken = color(0xB3123F);
+constexpr Color body = color(0xC3CCD6);
+/// For named sets: quiet, so that softening and broken stand out.
+constexpr Color sets[] = {color(0xC9CED6), color(0x9FB4C7), color(0xD6CBB3), color(0xA9C2AE),
+                          color(0xC4B2CC), color(0x8D99A8), color(0xDDB9A8), color(0x8FBDBD)};
+}  // namespace palette
+
+enum class Show {
+  bodies,  ///< the elements, deformed, tinted where their bonds soften or are broken
+  bonds,   ///< the interface and every bond that is no longer sound, over a faint specimen that is not deformed
+};
+
+struct View {
+  Show show = Show::bodies;
+  std::string name;  ///< "side view, x to the right, z up"
+  Camera camera;
+};
+
+struct Legend {
+  std::string label;
+  Color color;
+};
+
+struct Stage {
+  std::vector<View> views;
+  Real magnification = 1;
+  std::vector<std::string> interfaces;                      ///< families that soften, and are few enough to be drawn whole
+  std::map<std::int64_t, Color> element_color;              ///< by id; others have the colour of the body
+  std::vector<Legend> sets;
+};
+
+struct Counts {
+  std::size_t elastic = 0, softening = 0, broken = 0;
+};
+
+/// The stage for frames that show one specimen; `first` is its state of rest.
+Stage set_up(const Frame& first, const std::vector<Frame>& shown,
+             const std::map<std::string, std::vector<std::int64_t>>& sets);
+
+/// Bonds of the interfaces by state; of all families if there is no interface.
+Counts counts(const Stage&, const Frame&);
+
+Image draw(const Stage&, const View&, const Frame&, int width);
+
+/// Where a frame records positions only: displacements from those of the same elements in the first frame.
+void complete_displacement(Frame&, const Frame& first);
+
+}  // namespace beadwork::report

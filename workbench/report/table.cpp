@@ -1,0 +1,94 @@
+#include "workbench/report/table.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+namespace beadwork::report {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const auto comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+Column heading(std::string_view cell) {
+  const auto open = cell.rfind('[');
+  if (open == std::string_view::npos || !cell.ends_with(']')) return {std::string(cell), "1", {}};
+  return {std::string(trimmed(cell.substr(0, open))), std::string(cell.substr(open + 1, cell.size() - open - 2)), {}};
+}
+
+std::optional<double> value_of(std::string_view cell) {
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+bool append_row(Table& table, std::string_view line) {
+  const auto cells = cells_of(line);
+  if (cells.size() != table.columns.size()) return false;
+  std::vector<double> row;
+  for (const auto cell : cells) {
+    const auto value = value_of(cell);
+    if (!value) return false;
+    row.push_back(*value);
+  }
+  for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
+  return true;
+}
+
+}  // namespace
+
+const Column* Table::find(const std::string& name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+Table parse_table(const std::string& text, bool growing) {
+  Table table;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const auto end = rest.find('\n');
+    const bool whole = end != std::string_view::npos;
+    const std::string_view line = trimmed(rest.substr(0, end));
+    rest.remove_prefix(whole ? end + 1 : rest.size());
+    if (line.empty() || line.starts_with('#')) continue;
+    if (table.columns.empty()) {
+      for (const auto cell : cells_of(line)) table.columns.push_back(heading(cell));
+    } else if ((growing && !whole) || !append_row(table, line)) {
+      ++table.dropped_rows;
+    }
+  }
+  return table;
+}
+
+Table read_table(const std::filesystem::path& file, bool growing) { return parse_table(read_text(file), growing); }
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+}  // namespace beadwork::report

@@ -1,0 +1,31 @@
+#pragma once
+// Curves as CSV: the first line names the columns with their units, `step [1],time [s],force [N]`.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace beadwork::report {
+
+struct Column {
+  std::string name, unit;
+  std::vector<double> values;  ///< a cell that is empty or `nan` is NaN: a gap in the curve
+  bool is_reference() const { return name.starts_with("reference"); }
+};
+
+struct Table {
+  std::vector<Column> columns;
+  int dropped_rows = 0;  ///< rows that were cut off or held something other than numbers
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+  const Column* find(const std::string& name) const;  ///< nullptr if there is none
+};
+
+/// A row that is not whole is dropped and counted. `growing`: a last line without its end is one still being written.
+Table parse_table(const std::string& text, bool growing);
+Table read_table(const std::filesystem::path&, bool growing);
+
+/// The whole file; empty if it cannot be read.
+std::string read_text(const std::filesystem::path&);
+
+}  // namespace beadwork::report
