@@ -65,8 +65,9 @@ Index BondTable::cut(Index elements, Index halo_begin) {
     chunk.begin = row;
     while (row < size() && first_[row] < block_end) ++row;
     chunk.end = row;
-    chunk.live_end = chunk.begin;
-    while (chunk.live_end < chunk.end && state_[chunk.live_end] < State::broken) ++chunk.live_end;
+    // Broken rows that are not swept yet may stand among the live ones, when a checkpoint was written between the two.
+    chunk.live_end = chunk.end;
+    while (chunk.live_end > chunk.begin && state_[chunk.live_end - 1] >= State::broken) --chunk.live_end;
     chunk.halo_begin = halo;
     std::map<Index, Index> outside;  // element -> its halo row, in the order of elements
     for (Index b = chunk.begin; b < chunk.end; ++b)

@@ -51,7 +51,7 @@ Column& Table::add(const Field& field) {
   Column& made = *columns_.back();
   if (made.field_.line.empty()) made.field_.line = field.name;
   storage_of(made.field_.line);
-  lay_out(made.field_.line, 0, nullptr);
+  lay_out(made.field_.line, size_, nullptr);  // neighbours in the line keep their numbers
   return made;
 }
 
