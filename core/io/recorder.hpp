@@ -61,7 +61,7 @@ class Recorder {
   void write(const FrameStamp& stamp, const FrameRequest& request, const Domain& domain);
   /// Brings the log of breaks in run.h5 up to date without a frame.
   void write_breaks(const Domain& domain);
-  /// For an orderly end: makes run.h5 one file that needs no other. Returns false, with run.h5 and the frames left
+  /// For an orderly end, as the last call: makes run.h5 one file that needs no other. Returns false, with run.h5 and the frames left
   /// as they are and `reason` set, if that cannot be done (disk full).
   bool consolidate(const Domain& domain, std::string& reason);
 
@@ -74,9 +74,11 @@ class Recorder {
 
   Recorder(const RunFolder& folder, RunMeta meta, Options options);
   void take_up(std::int64_t step);
+  void write_one_file(const std::filesystem::path& part, const Domain& domain) const;
   void take_up_file(const std::string& file, std::int64_t step);
   void write_master(const Domain& domain) const;
   void write_view() const;
+  void require_open() const;
 
   std::filesystem::path root_, record_, view_, frames_folder_;
   RunMeta meta_;
@@ -84,6 +86,7 @@ class Recorder {
   std::map<std::int64_t, Source> frames_;  ///< by step
   FrameRequest latest_;
   std::int64_t latest_step_ = -1;
+  bool closed_ = false;  ///< consolidated
 };
 
 }  // namespace beadwork

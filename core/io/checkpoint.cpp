@@ -1,0 +1,218 @@
+#include "core/io/checkpoint.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "core/io/check_sum.hpp"
+#include "core/io/file.hpp"
+#include "core/io/h5.hpp"
+
+namespace beadwork {
+
+namespace {
+
+constexpr std::int64_t format_version = 1;
+
+// ---- writing
+
+void save_table(hid_t place, const std::string& name, const Table& table) {
+  const h5::Handle group = h5::make_group(place, name);
+  h5::set_attribute(group.id(), "rows", static_cast<std::int64_t>(table.size()));
+  for (const Column* column : table.columns())
+    if (column->kept()) h5::write_column(group.id(), *column, table.size());
+}
+
+void save_families(hid_t place, const Domain& domain) {
+  const h5::Handle group = h5::make_group(place, "bonds");
+  std::vector<std::string> names;
+  for (const auto& family : domain.families()) {
+    save_table(group.id(), family->name(), family->rows());
+    names.push_back(family->name());
+  }
+  h5::write_texts(place, "families", names);
+}
+
+void save_sets(hid_t place, const Domain& domain) {
+  const h5::Handle group = h5::make_group(place, "sets");
+  for (const auto& [name, set] : domain.sets())
+    h5::write_indices(group.id(), name, set, 1, {"1", "Rows of the elements of the set"});
+}
+
+void save_breaks(hid_t place, const BreakLog& log) {
+  const h5::Handle group = h5::make_group(place, "breaks");
+  std::vector<Real> reals;
+  std::vector<Index> indices;
+  std::vector<std::int64_t> steps;
+  for (const Break& b : log.breaks) {
+    reals.insert(reals.end(), {b.time, b.place[0], b.place[1], b.place[2], b.energy});
+    indices.insert(indices.end(), {b.family, b.bond, b.mode});
+    steps.push_back(b.step);
+  }
+  h5::write_texts(group.id(), "modes", log.modes);
+  h5::write_reals(group.id(), "reals", reals, 5, {"SI", "Time, place (3), energy"});
+  h5::write_indices(group.id(), "indices", indices, 3, {"1", "Family, bond, mode"});
+  h5::write_integers(group.id(), "steps", steps, {"1", "Step"});
+}
+
+void save_meta(hid_t place, const CheckpointMeta& meta) {
+  const h5::Handle group = h5::make_group(place, "meta");
+  h5::set_attribute(group.id(), "format", format_version);
+  h5::set_attribute(group.id(), "version", meta.version);
+  h5::set_attribute(group.id(), "deck_sha256", meta.deck_sha256);
+  h5::set_attribute(group.id(), "stage", static_cast<std::int64_t>(meta.stage));
+  h5::set_attribute(group.id(), "time", meta.time);
+  h5::set_attribute(group.id(), "step", meta.step);
+  h5::set_attribute(group.id(), "seed", static_cast<std::int64_t>(meta.seed));
+  h5::write_text(group.id(), "resolved", meta.resolved);
+  std::vector<std::string> keys, values;
+  for (const auto& [key, value] : meta.texts) {
+    keys.push_back(key);
+    values.push_back(value);
+  }
+  h5::write_texts(group.id(), "keys", keys);
+  for (std::size_t i = 0; i < values.size(); ++i) h5::write_text(group.id(), fmt::format("value-{}", i), values[i]);
+}
+
+// ---- reading
+
+CheckpointMeta load_meta(hid_t place) {
+  const h5::Handle group = h5::open_group(place, "meta");
+  const std::int64_t format = h5::integer_attribute(group.id(), "format");
+  if (format != format_version)
+    throw MachineFailure(fmt::format("it has format {}, this program reads format {}", format, format_version));
+  CheckpointMeta meta;
+  meta.version = h5::text_attribute(group.id(), "version");
+  meta.deck_sha256 = h5::text_attribute(group.id(), "deck_sha256");
+  meta.stage = static_cast<Index>(h5::integer_attribute(group.id(), "stage"));
+  meta.time = h5::real_attribute(group.id(), "time");
+  meta.step = h5::integer_attribute(group.id(), "step");
+  meta.seed = static_cast<std::uint64_t>(h5::integer_attribute(group.id(), "seed"));
+  meta.resolved = h5::read_text(group.id(), "resolved");
+  const auto keys = h5::read_texts(group.id(), "keys");
+  for (std::size_t i = 0; i < keys.size(); ++i) meta.texts[keys[i]] = h5::read_text(group.id(), fmt::format("value-{}", i));
+  return meta;
+}
+
+std::string described(const Field& field) { return fmt::format("{} [{}]", type_name(field.type), field.unit); }
+
+// A column of the file that the scene has not declared yet is one that a plugin will add later: keep it.
+Column& column_for(Table& table, const Field& saved, const std::string& of) {
+  if (const Column* there = table.find(saved.name))
+    if (there->field().type != saved.type || there->field().unit != saved.unit)
+      throw DeckFailure(fmt::format("the checkpoint has column '{}' of {} as {}, this deck wants {}; resume with the deck "
+                                    "that wrote it",
+                                    saved.name, of, described(saved), described(there->field())));
+  Column& column = table.add(saved);
+  column.keep();
+  return column;
+}
+
+void load_columns(hid_t place, const std::string& name, Table& table, On on, const std::string& of) {
+  const h5::Handle group = h5::open_group(place, name);
+  for (const Column* column : table.columns())
+    if (column->kept() && !h5::has(group.id(), column->field().name))
+      throw DeckFailure(fmt::format("the checkpoint has no column '{}' of {}, which this deck keeps; resume with the deck "
+                                    "that wrote it",
+                                    column->field().name, of));
+  for (const std::string& column : h5::names_in(group.id()))
+    h5::read_column(group.id(), column_for(table, h5::read_field(group.id(), column, on), of), table.size());
+}
+
+Index saved_rows(hid_t place, const std::string& name) {
+  return static_cast<Index>(h5::integer_attribute(h5::open_group(place, name).id(), "rows"));
+}
+
+// `families[k]` is the place in the domain of the file's family k.
+std::vector<Index> load_families(hid_t place, Domain& domain) {
+  const h5::Handle group = h5::open_group(place, "bonds");
+  std::vector<Index> families;
+  for (const std::string& name : h5::read_texts(place, "families")) {
+    const auto& all = domain.families();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& family) { return family->name() == name; });
+    if (found == all.end())
+      throw DeckFailure(fmt::format("the checkpoint has bonds '{}', which this deck has not; resume with the deck that "
+                                    "wrote it",
+                                    name));
+    BondTable& family = **found;
+    family.rows().resize(saved_rows(group.id(), name));
+    load_columns(group.id(), name, family.rows(), On::bonds, fmt::format("bonds '{}'", name));
+    family.rebind();
+    families.push_back(static_cast<Index>(found - all.begin()));
+  }
+  return families;
+}
+
+void load_sets(hid_t place, Domain& domain) {
+  const h5::Handle group = h5::open_group(place, "sets");
+  domain.sets().clear();
+  for (const std::string& name : h5::names_in(group.id())) domain.sets()[name] = h5::read_indices(group.id(), name);
+}
+
+BreakLog load_breaks(hid_t place, const std::vector<Index>& families) {
+  const h5::Handle group = h5::open_group(place, "breaks");
+  BreakLog log;
+  log.modes = h5::read_texts(group.id(), "modes");
+  const auto reals = h5::read_reals(group.id(), "reals");
+  const auto indices = h5::read_indices(group.id(), "indices");
+  const auto steps = h5::read_integers(group.id(), "steps");
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Real* r = &reals.at(5 * i);
+    const Index* n = &indices.at(3 * i);
+    log.breaks.push_back({r[0], steps[i], families.at(static_cast<std::size_t>(n[0])), n[1], n[2],
+                          Vec3(r[1], r[2], r[3]), r[4]});
+  }
+  return log;
+}
+
+// Everything that can be wrong with the file is said with its name; whose fault it is stays as it was.
+template <class Read>
+auto read_file(const std::filesystem::path& file, const Read& read) {
+  const h5::Silence silence;
+  verify_check_sum(file);
+  try {
+    return read(h5::open_file(file).id());
+  } catch (const MachineFailure& failure) {
+    throw MachineFailure(fmt::format("cannot read checkpoint '{}': {}", file.string(), failure.what()));
+  } catch (const std::out_of_range&) {
+    throw MachineFailure(fmt::format("cannot read checkpoint '{}': its log of breaks is not whole", file.string()));
+  }
+}
+
+}  // namespace
+
+void save_checkpoint(const std::filesystem::path& file, const Domain& domain, const CheckpointMeta& meta) {
+  const h5::Silence silence;
+  h5::MemoryFile out;
+  save_meta(out.id(), meta);
+  save_table(out.id(), "elements", domain.elements());
+  save_table(out.id(), "scene", domain.scene());
+  save_families(out.id(), domain);
+  save_sets(out.id(), domain);
+  save_breaks(out.id(), domain.breaks());
+  const auto image = out.image();
+  const std::string trailer = check_sum_trailer(image);
+  write_atomically(file, {image, std::as_bytes(std::span(trailer.data(), trailer.size()))});
+}
+
+CheckpointMeta read_checkpoint_meta(const std::filesystem::path& file) {
+  return read_file(file, [](hid_t place) { return load_meta(place); });
+}
+
+void load_checkpoint(const std::filesystem::path& file, Domain& domain) {
+  read_file(file, [&](hid_t place) {
+    domain.elements().resize(0);
+    domain.add_elements(saved_rows(place, "elements"));
+    load_columns(place, "elements", domain.elements(), On::elements, "elements");
+    load_columns(place, "scene", domain.scene(), On::scene, "the scene");
+    const auto families = load_families(place, domain);
+    load_sets(place, domain);
+    domain.breaks() = load_breaks(place, families);
+    domain.touch();
+  });
+}
+
+}  // namespace beadwork

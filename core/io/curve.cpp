@@ -1,0 +1,104 @@
+#include "core/io/curve.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+
+namespace beadwork {
+
+namespace {
+
+// A comma in a name would be read as the end of a column.
+std::string first_line(const std::vector<CurveColumn>& columns) {
+  std::string line = "step [1]";
+  for (const CurveColumn& column : columns) {
+    if ((column.name + column.unit).find_first_of(",\"\n") != std::string::npos)
+      throw std::logic_error(fmt::format("'{} [{}]' cannot head a column of a curve", column.name, column.unit));
+    line += fmt::format(",{} [{}]", column.name, column.unit);
+  }
+  return line;
+}
+
+template <class T>
+void append(std::string& row, T number) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+  row.append(digits, end);
+}
+
+// Length of the file up to the last whole row that is not later than `step`.
+std::uintmax_t length_up_to(std::ifstream& in, std::uintmax_t first_row, std::int64_t step) {
+  std::uintmax_t length = first_row;
+  std::string row;
+  while (std::getline(in, row) && !in.eof()) {  // a row that ends with the file, not with its line, is torn
+    std::int64_t at = 0;
+    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), at);
+    if (error != std::errc() || end == row.data() + row.size() || *end != ',' || at > step) break;
+    length += row.size() + 1;
+  }
+  return length;
+}
+
+}  // namespace
+
+Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
+  write_atomically(file, first_line(columns) + "\n");
+  Curve curve(file, columns.size());
+  curve.open();
+  return curve;
+}
+
+Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns, std::int64_t step) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return fresh(file, columns);
+  std::ifstream in(file, std::ios::binary);
+  std::string head;
+  if (!std::getline(in, head)) throw file_failure("read", file, EIO);
+  if (head != first_line(columns))
+    throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
+                                  "wrote it",
+                                  file.string(), head, first_line(columns)));
+  std::filesystem::resize_file(file, length_up_to(in, head.size() + 1, step), error);
+  if (error) throw file_failure("cut", file, error.value());
+  Curve curve(file, columns.size());
+  curve.open();
+  return curve;
+}
+
+void Curve::open() {
+  descriptor_ = Descriptor(::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  if (!descriptor_) throw file_failure("write", file_, errno);
+}
+
+void Curve::add(std::int64_t step, std::span<const Real> values) {
+  if (values.size() != columns_)
+    throw std::logic_error(fmt::format("curve '{}' has {} columns, not {}", file_.string(), columns_, values.size()));
+  row_.clear();
+  append(row_, step);
+  for (const Real value : values) {
+    row_ += ',';
+    append(row_, value);
+  }
+  row_ += '\n';
+  const off_t before = ::lseek(descriptor_.number(), 0, SEEK_END);
+  const int error = write_all(descriptor_.number(), row_.data(), row_.size());
+  if (error == 0) return;
+  if (before >= 0 && ::ftruncate(descriptor_.number(), before) != 0) errno = error;  // half a row is worse than none
+  throw file_failure("write", file_, error);
+}
+
+void Curve::sync() {
+  if (::fsync(descriptor_.number()) != 0 && errno != EINVAL) throw file_failure("write", file_, errno);
+}
+
+void Curve::write_sidecar(const std::string& json) const {
+  std::filesystem::path sidecar = file_;
+  write_atomically(sidecar.replace_extension(".json"), json);
+}
+
+}  // namespace beadwork

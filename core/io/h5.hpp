@@ -1,0 +1,92 @@
+#pragma once
+// What this part needs of HDF5: whole datasets, text, attributes, columns; failures in HDF5's own words.
+// Included by core/io only.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/domain/table.hpp"
+#include "core/io/h5_handle.hpp"
+
+namespace beadwork::h5 {
+
+/// The innermost cause on HDF5's error stack; where the system refused, the system's words alone.
+std::string reason();
+/// Takes over an identifier, or throws MachineFailure "HDF5 cannot <doing>: <reason>".
+Handle take(hid_t id, Handle::Close close, const std::string& doing);
+void check(herr_t status, const std::string& doing);
+
+/// A file that is made in memory, so that the disk sees one plain write whose errors are the system's own. (A file
+/// that HDF5 itself could not finish stays open in the library, holding its space, until the program ends.)
+class MemoryFile {
+ public:
+  MemoryFile();
+  hid_t id() const { return file_.id(); }
+  /// The bytes of the file as they stand; valid until the next write.
+  std::span<const std::byte> image() const;
+
+ private:
+  Handle file_;
+};
+
+Handle open_file(const std::filesystem::path& file);
+Handle make_group(hid_t place, const std::string& name);
+Handle open_group(hid_t place, const std::string& name);
+bool has(hid_t place, const std::string& name);
+std::vector<std::string> names_in(hid_t group);
+
+/// How numbers lie in the file.
+struct Storage {
+  bool single = false;  ///< real numbers with 32 bits
+  int gzip = 0;         ///< level, 0: none
+};
+struct Label {
+  std::string unit = "1";
+  std::string long_name;
+};
+
+void set_attribute(hid_t object, const std::string& name, const std::string& text);
+void set_attribute(hid_t object, const std::string& name, Real value);
+void set_attribute(hid_t object, const std::string& name, std::int64_t value);
+std::string text_attribute(hid_t object, const std::string& name);
+Real real_attribute(hid_t object, const std::string& name);
+std::int64_t integer_attribute(hid_t object, const std::string& name);
+
+/// One text, or a list of them: scalar or one-dimensional datasets of UTF-8.
+void write_text(hid_t place, const std::string& name, const std::string& text);
+void write_texts(hid_t place, const std::string& name, const std::vector<std::string>& texts);
+void set_texts_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
+std::string read_text(hid_t place, const std::string& name);
+std::vector<std::string> read_texts(hid_t place, const std::string& name);
+
+/// `rows` times `width` numbers, row by row; one-dimensional if the width is one.
+Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label,
+                   Storage storage = {});
+Handle write_indices(hid_t place, const std::string& name, std::span<const Index> numbers, int width,
+                     const Label& label, Storage storage = {});
+Handle write_integers(hid_t place, const std::string& name, std::span<const std::int64_t> numbers, const Label& label);
+std::vector<Real> read_reals(hid_t place, const std::string& name);
+std::vector<Index> read_indices(hid_t place, const std::string& name);
+std::vector<std::int64_t> read_integers(hid_t place, const std::string& name);
+
+/// A column under its own name, with unit and long_name, and with what is needed to make it again.
+void write_column(hid_t place, const Column& column, Index rows, Storage storage = {});
+/// The field as which a dataset was written.
+Field read_field(hid_t place, const std::string& name, On on);
+/// Fills the first `rows` rows of the column from the dataset of its name.
+void read_column(hid_t place, Column& column, Index rows);
+
+/// Shape and kind of a dataset.
+struct Shape {
+  std::vector<hsize_t> extent;
+  bool integer = false;
+  std::size_t bytes = 0;  ///< of one number
+};
+Shape shape_of(hid_t place, const std::string& name);
+
+}  // namespace beadwork::h5
