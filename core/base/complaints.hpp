@@ -2,6 +2,7 @@
 // All complaints about a deck are gathered and shown together, so that one run of the program finds all
 // mistakes.
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ class Complaints {
   std::vector<Complaint> in_order() const;
 
   std::vector<Complaint> list_;
+  std::set<std::string> seen_;  // the same mistake met twice is told once
   int errors_ = 0, warnings_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace beadwork {
 
@@ -44,7 +45,8 @@ std::optional<Unit> find_unit(std::string_view text);
 /// negative exponent needs its ^ (3 s^-1), because 3 s-1 is a difference.
 struct LeadingUnit {
   Unit unit;
-  std::size_t length;
+  std::size_t length = 0;
+  std::vector<std::string_view> later_names;  ///< in "N/mm^3": mm. They might be meant as parameters
 };
 std::optional<LeadingUnit> find_leading_unit(std::string_view text);
 

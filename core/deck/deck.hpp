@@ -12,13 +12,17 @@
 
 namespace beadwork {
 
+/// Where the character text[offset] stands, for a text read from `start` on: entities and line ends are one
+/// character.
+Location locate(const Location& start, std::size_t offset);
+
 struct Attribute {
   std::string name, value;     ///< value with its entities decoded
   Location name_at, value_at;  ///< value_at: its first character, behind the quote
   mutable bool used = false;   ///< set by the readers (read.hpp); what stays unused is an error of the deck
 
   /// Where the character value[offset] stands in the file.
-  Location place(std::size_t offset) const;
+  Location place(std::size_t offset) const { return locate(value_at, offset); }
 };
 
 struct Node {

@@ -19,47 +19,50 @@ struct Parameter {
   bool from_library = false;  ///< it stands in an included file: may stay unused
 };
 
+/// One of the values that a text such as "1 2 3 mm" or "${side}" holds.
+struct Value {
+  Quantity quantity;
+  bool is_bare = false;     ///< a plain number to which a unit behind it may still apply
+  bool is_literal = false;  ///< a number of the deck, not the result of ${}
+};
+
 class Scope {
  public:
   /// A second parameter of one name is an error at the second, naming the place of the first.
   void add(Parameter parameter, Complaints& complaints);
 
   /// `--set`: gives a parameter another value. Unknown: an error with a suggestion.
-  void set(std::string_view name, std::string_view value, Complaints& complaints);
+  void set(std::string_view name, std::string_view text, Complaints& complaints);
 
-  /// The parameter, which counts as used from now on; or null.
-  const Parameter* use(std::string_view name) const;
   bool has(std::string_view name) const { return find(name) != nullptr; }
   std::vector<std::string> names() const;  ///< in the order of the deck
 
-  /// The value of a parameter as a quantity. Nothing if it is unknown, no quantity, or depends on itself;
-  /// then there is an error at the parameter (unknown: at `asked_at`).
+  // What a parameter holds; it counts as used from then on. Nothing if it is unknown (an error at
+  // `asked_at`), not what is wanted, or depends on itself (an error at the parameter).
   std::optional<Quantity> quantity(std::string_view name, const Location& asked_at,
                                    Complaints& complaints) const;
-
-  /// The value of a parameter as text, with every ${} in it replaced.
+  std::optional<std::vector<Value>> values(std::string_view name, const Location& asked_at,
+                                           Complaints& complaints) const;
   std::optional<std::string> text(std::string_view name, const Location& asked_at,
-                                  Complaints& complaints) const;
+                                  Complaints& complaints) const;  ///< every ${} replaced
 
   /// One error for each parameter of the deck file itself that nothing has used. Call it when everything is
   /// read.
   void complain_about_unused(Complaints& complaints) const;
 
  private:
-  enum class State { fresh, running, known, failed };
   struct Entry {
     Parameter parameter;
     mutable bool used = false;
-    mutable State state = State::fresh;
-    mutable std::optional<Quantity> quantity;
+    mutable std::optional<std::optional<std::vector<Value>>> values;  ///< once worked out
   };
 
   const Entry* find(std::string_view name) const;
-  const Entry* enter(std::string_view name, const Location& asked_at, Complaints& complaints) const;
-  void complain_about_circle(const Entry& entry, Complaints& complaints) const;
+  const Entry* start(std::string_view name, const Location& asked_at, Complaints& complaints) const;
 
-  std::vector<Entry> entries_;
-  mutable std::vector<const Entry*> running_;  ///< those being worked out: finds circles
+  std::vector<Entry> entries_;                             // in the order of the deck
+  std::map<std::string, std::size_t, std::less<>> index_;  // of a name in entries_
+  mutable std::vector<const Entry*> running_;  ///< those being worked out, outermost first: finds circles
 };
 
 }  // namespace beadwork

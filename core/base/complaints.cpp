@@ -1,0 +1,102 @@
+#include "core/base/complaints.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+
+#include "core/base/failure.hpp"
+
+namespace beadwork {
+
+namespace {
+
+constexpr std::size_t most_shown = 50;    // a deck of another program complains about every line
+constexpr std::size_t widest_line = 160;  // columns; of longer lines the part around the caret is shown
+
+std::string_view line_of(std::string_view text, int line) {
+  std::size_t begin = 0;
+  for (int n = 1; n < line; ++n) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string_view::npos) return {};
+    begin = end + 1;
+  }
+  std::string_view found = text.substr(begin, text.find('\n', begin) - begin);
+  if (found.ends_with('\r')) found.remove_suffix(1);
+  return found;
+}
+
+bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
+
+// The source line and a caret below the column. Tabs are repeated in the line of the caret, so that it stands
+// right.
+std::string excerpt(const Location& at) {
+  if (!at.source || at.line <= 0 || at.column <= 0) return {};
+  const std::string_view line = line_of(at.source->text, at.line);
+  const int first =
+      at.column > static_cast<int>(widest_line) * 3 / 4 ? at.column - static_cast<int>(widest_line) / 2 : 1;
+  std::string shown, padding;
+  int column = 0;
+  for (char c : line) {
+    if (starts_character(c)) ++column;
+    if (column < first) continue;
+    if (column >= first + static_cast<int>(widest_line)) break;
+    const bool unprintable = static_cast<unsigned char>(c) < 0x20 && c != '\t';
+    shown += unprintable ? '?' : c;
+    if (column < at.column && starts_character(c)) padding += c == '\t' ? '\t' : ' ';
+  }
+  return shown + "\n" + padding + "^\n";
+}
+
+std::string counted(int number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void Complaints::add(const Location& at, bool is_error, std::string message) {
+  if (!seen_.insert(at.where() + (is_error ? ": error: " : ": warning: ") + message).second) return;
+  ++(is_error ? errors_ : warnings_);
+  list_.push_back({at, is_error, std::move(message)});
+}
+
+std::vector<Complaints::Complaint> Complaints::in_order() const {
+  std::vector<std::string> files;
+  const auto file = [&](const Complaint& complaint) {
+    if (!complaint.at.source) return list_.size();
+    const std::string& path = complaint.at.source->path;
+    const auto known = std::find(files.begin(), files.end(), path);
+    if (known != files.end()) return static_cast<std::size_t>(known - files.begin());
+    files.push_back(path);
+    return files.size() - 1;
+  };
+  using Key = std::tuple<std::size_t, int, int>;
+  std::vector<std::pair<Key, Complaint>> keyed;
+  for (const Complaint& each : list_) keyed.push_back({{file(each), each.at.line, each.at.column}, each});
+  std::stable_sort(keyed.begin(), keyed.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Complaint> sorted;
+  for (auto& each : keyed) sorted.push_back(std::move(each.second));
+  return sorted;
+}
+
+std::string Complaints::text() const {
+  std::string text;
+  const std::vector<Complaint> sorted = in_order();
+  const std::size_t shown = std::min(sorted.size(), most_shown);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const Complaint& each = sorted[i];
+    if (each.at.source) text += each.at.where() + ": ";
+    text += (each.is_error ? "error: " : "warning: ") + each.message + "\n" + excerpt(each.at);
+  }
+  if (shown < sorted.size()) text += "... and " + std::to_string(sorted.size() - shown) + " more\n";
+  if (errors_ > 0) text += counted(errors_, "error");
+  if (errors_ > 0 && warnings_ > 0) text += ", ";
+  if (warnings_ > 0) text += counted(warnings_, "warning");
+  return text;
+}
+
+void Complaints::throw_if_any() const {
+  if (errors_ > 0) throw DeckFailure(text());
+}
+
+}  // namespace beadwork

@@ -1,0 +1,84 @@
+#include "core/deck/expression.hpp"
+
+#include <array>
+
+#include "core/base/text.hpp"
+#include "core/deck/deck.hpp"
+#include "core/deck/grammar.hpp"
+#include "core/deck/recorder.hpp"
+#include "core/deck/scope.hpp"
+
+namespace beadwork {
+
+namespace {
+
+constexpr std::size_t longest_text = 4000;
+
+}  // namespace
+
+std::optional<Expression> Expression::compile(std::string_view text, const Location& start,
+                                              const Scope& scope, std::span<const Variable> variables,
+                                              Complaints& complaints) {
+  try {
+    if (text.size() > longest_text)
+      throw ExpressionMistake(
+          0, "this expression is longer than " + std::to_string(longest_text) + " characters");
+    const std::vector<Token> tokens = tokens_of(text, scope, variables);
+    if (tokens.empty()) throw ExpressionMistake(0, "an expression is wanted here");
+    Recorder recorder(tokens);
+    std::vector<int> handles(tokens.size(), -1);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+      const Token& token = tokens[i];
+      if (token.kind == Token::Kind::literal) handles[i] = recorder.constant(token.quantity, token);
+      if (token.kind == Token::Kind::variable)
+        handles[i] = recorder.variable(variables[token.variable].dimension, token);
+      if (token.kind != Token::Kind::parameter) continue;
+      const auto quantity = scope.quantity(token.text, locate(start, token.at), complaints);
+      if (!quantity) return {};
+      handles[i] = recorder.constant(*quantity, token);
+    }
+    const int result = record(tokens, handles, text.size(), recorder);
+    Expression expression;
+    expression.dimension_ = recorder.operand(result).dimension;
+    expression.is_condition_ = recorder.operand(result).is_condition;
+    expression.steps_ = std::move(recorder).steps();
+    expression.steps_.resize(static_cast<std::size_t>(result) + 1);
+    return expression;
+  } catch (const ExpressionMistake& mistake) {
+    complaints.error(locate(start, mistake.at), mistake.what());
+    return {};
+  }
+}
+
+std::optional<Expression> Expression::compile(const Attribute& attribute, const Scope& scope,
+                                              std::span<const Variable> variables, Complaints& complaints) {
+  attribute.used = true;
+  return compile(attribute.value, attribute.value_at, scope, variables, complaints);
+}
+
+bool Expression::uses(std::size_t variable) const {
+  for (const Step& step : steps_)
+    if (step.operation == static_cast<int>(Operation::variable) && step.a == static_cast<int>(variable))
+      return true;
+  return false;
+}
+
+double Expression::evaluate(std::span<const double> si_values) const {
+  constexpr std::size_t few = 64;  // steps of an everyday expression: no allocation
+  std::array<double, few> on_stack;
+  std::vector<double> on_heap(steps_.size() > few ? steps_.size() : 0);
+  double* const values = on_heap.empty() ? on_stack.data() : on_heap.data();
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const auto operation = static_cast<Operation>(step.operation);
+    if (operation == Operation::constant)
+      values[i] = step.value;
+    else if (operation == Operation::variable)
+      values[i] = si_values[static_cast<std::size_t>(step.a)];
+    else
+      values[i] = apply(operation, values[step.a], values[step.b], values[step.c]);
+  }
+  return values[steps_.size() - 1];
+}
+
+}  // namespace beadwork

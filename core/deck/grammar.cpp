@@ -1,0 +1,159 @@
+#include "core/deck/grammar.hpp"
+
+#include <muParser.h>
+
+#include <string>
+
+namespace beadwork {
+
+// muParser finds the structure: precedence, brackets, arguments. It is run once, on handles instead of
+// values: each number it sees is the index of a step, each operator and function a callback that checks the
+// dimensions of its operands and records one more step. What is left is a straight list of steps.
+
+namespace {
+
+// ---- muParser calls plain functions, so they find the recorder here; set only while an expression is
+// compiled.
+
+thread_local Recorder* recording = nullptr;
+
+template <Operation operation>
+double record_unary(double a) {
+  return recording->unary(operation, static_cast<int>(a));
+}
+template <Operation operation>
+double record_binary(double a, double b) {
+  return recording->binary(operation, static_cast<int>(a), static_cast<int>(b));
+}
+template <Operation operation>
+double record_many(const double* handles, int count) {
+  return recording->minimum_or_maximum(operation, handles, count);
+}
+double record_choice(double test, double yes, double no) {
+  return recording->choose(static_cast<int>(test), static_cast<int>(yes), static_cast<int>(no));
+}
+double record_arc_tangent(double a, double b) {
+  return recording->arc_tangent(static_cast<int>(a), static_cast<int>(b));
+}
+double same(double a) { return a; }
+
+void define_operators(mu::Parser& parser) {
+  using enum Operation;
+  parser.EnableBuiltInOprt(false);
+  parser.ClearInfixOprt();
+  const auto operators = [&](const char* sign, mu::fun_type2 function, int precedence) {
+    parser.DefineOprt(sign, function, static_cast<unsigned>(precedence),
+                      sign[0] == '^' ? mu::oaRIGHT : mu::oaLEFT);
+  };
+  operators("||", record_binary<either>, mu::prLOR);
+  operators("&&", record_binary<both>, mu::prLAND);
+  operators("<", record_binary<less>, mu::prCMP);
+  operators("<=", record_binary<less_equal>, mu::prCMP);
+  operators(">", record_binary<greater>, mu::prCMP);
+  operators(">=", record_binary<greater_equal>, mu::prCMP);
+  operators("==", record_binary<equal>, mu::prCMP);
+  operators("!=", record_binary<different>, mu::prCMP);
+  operators("+", record_binary<add>, mu::prADD_SUB);
+  operators("-", record_binary<subtract>, mu::prADD_SUB);
+  operators("*", record_binary<multiply>, mu::prMUL_DIV);
+  operators("/", record_binary<divide>, mu::prMUL_DIV);
+  operators("^", record_binary<power>, mu::prPOW);
+  constexpr int below_comparison = (mu::prLAND + mu::prCMP) / 2;
+  parser.DefineInfixOprt("!", record_unary<opposite>, below_comparison, false);
+  parser.DefineInfixOprt("-", record_unary<negate>, mu::prINFIX, false);
+  parser.DefineInfixOprt("+", same, mu::prINFIX, false);
+}
+
+void define_functions(mu::Parser& parser) {
+  using enum Operation;
+  parser.ClearFun();
+  const auto function = [&](const char* name, mu::fun_type1 callback) {
+    parser.DefineFun(name, callback, false);
+  };
+  function("sqrt", record_unary<square_root>);
+  function("abs", record_unary<absolute>);
+  function("sin", record_unary<sine>);
+  function("cos", record_unary<cosine>);
+  function("tan", record_unary<tangent>);
+  function("asin", record_unary<arc_sine>);
+  function("acos", record_unary<arc_cosine>);
+  function("atan", record_unary<arc_tangent>);
+  function("exp", record_unary<exponential>);
+  function("log", record_unary<logarithm>);
+  function("ln", record_unary<logarithm>);
+  function("log10", record_unary<logarithm_10>);
+  function("floor", record_unary<Operation::floor>);
+  function("ceil", record_unary<ceiling>);
+  function("round", record_unary<Operation::round>);
+  function("sign", record_unary<sign>);
+  parser.DefineFun("atan2", record_arc_tangent, false);
+  parser.DefineFun("if", record_choice, false);
+  parser.DefineFun("min", record_many<minimum>, false);
+  parser.DefineFun("max", record_many<maximum>, false);
+}
+
+std::string in_plain_words(const mu::ParserError& error) {
+  switch (error.GetCode()) {
+    case mu::ecUNEXPECTED_EOF:
+      return "the expression ends too early";
+    case mu::ecUNEXPECTED_OPERATOR:
+      return "an operator cannot stand here";
+    case mu::ecUNEXPECTED_VAL:
+    case mu::ecUNEXPECTED_VAR:
+    case mu::ecUNEXPECTED_FUN:
+      return "an operator is missing before this";
+    case mu::ecUNEXPECTED_PARENS:
+      return "a bracket cannot stand here";
+    case mu::ecMISSING_PARENS:
+      return "a bracket is not closed";
+    case mu::ecUNEXPECTED_ARG_SEP:
+      return "a comma cannot stand here; decimals have a point";
+    case mu::ecTOO_MANY_PARAMS:
+      return "this function has too many arguments";
+    case mu::ecTOO_FEW_PARAMS:
+      return "this function has too few arguments";
+    default:
+      return "cannot be understood";
+  }
+}
+
+/// The tokens as muParser shall read them: leaves become constants #0 #1 ... that hold handles. `origin`
+/// tells for each character which token it came from.
+std::string translated(const std::vector<Token>& tokens, std::vector<std::size_t>& origin) {
+  std::string text;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    const bool is_leaf = tokens[i].kind != Token::Kind::sign && tokens[i].kind != Token::Kind::function;
+    text += (is_leaf ? "v" + std::to_string(i) : tokens[i].text) + " ";
+    origin.resize(text.size(), i);
+  }
+  return text;
+}
+
+}  // namespace
+
+int record(const std::vector<Token>& tokens, const std::vector<int>& handles, std::size_t text_length,
+           Recorder& recorder) {
+  recording = &recorder;
+  std::vector<std::size_t> origin;
+  const std::string text = translated(tokens, origin);
+  try {
+    mu::Parser parser;
+    define_operators(parser);
+    define_functions(parser);
+    parser.ClearConst();
+    parser.EnableOptimizer(false);
+    for (std::size_t i = 0; i < tokens.size(); ++i)
+      if (handles[i] >= 0) parser.DefineConst("v" + std::to_string(i), handles[i]);
+    parser.SetExpr(text);
+    const int result = static_cast<int>(parser.Eval());
+    if (parser.GetNumResults() != 1)
+      throw ExpressionMistake(0, "commas separate only the arguments of a function; decimals have a point");
+    return result;
+  } catch (const mu::ParserError& error) {
+    const auto position = static_cast<std::size_t>(error.GetPos());
+    const bool is_known = position < origin.size() && error.GetCode() != mu::ecUNEXPECTED_EOF;
+    throw ExpressionMistake(is_known ? tokens[origin[position]].at : text_length, in_plain_words(error));
+  }
+}
+
+}  // namespace beadwork

@@ -1,0 +1,53 @@
+#pragma once
+// The steps that a compiled expression is made of.
+
+#include <string_view>
+
+namespace beadwork {
+
+enum class Operation {
+  constant,
+  variable,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  negate,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  different,
+  both,
+  either,
+  opposite,
+  choose,
+  square_root,
+  absolute,
+  minimum,
+  maximum,
+  sine,
+  cosine,
+  tangent,
+  arc_sine,
+  arc_cosine,
+  arc_tangent,
+  arc_tangent_of_two,
+  exponential,
+  logarithm,
+  logarithm_10,
+  floor,
+  ceiling,
+  round,
+  sign
+};
+
+/// One step on plain numbers; conditions are 1 and 0. A NaN makes every result NaN, comparisons too.
+double apply(Operation operation, double a, double b, double c);
+
+/// Is this the name of a function in expressions?
+bool is_function(std::string_view name);
+
+}  // namespace beadwork

@@ -1,0 +1,212 @@
+#include "core/deck/read.hpp"
+
+#include <cmath>
+
+#include "core/base/text.hpp"
+#include "core/deck/expression.hpp"
+#include "core/deck/pieces.hpp"
+
+namespace beadwork {
+
+namespace {
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+bool is_angle(std::string_view unit) { return unit == "rad" || unit == "deg" || unit == "degree"; }
+
+Dimension dimension_of(std::string_view unit) {
+  const auto found = find_unit(unit);
+  if (!found) throw std::invalid_argument("a parameter is declared with an " + why_no_unit(unit));
+  return found->dimension;
+}
+
+/// Says what an attribute wants and what it got instead.
+class Refusal {
+ public:
+  Refusal(const Attribute& attribute, std::string wanted, Complaints& complaints)
+      : attribute_(attribute), wanted_(std::move(wanted)), complaints_(complaints) {}
+
+  std::nullopt_t operator()(const std::string& behind = "", std::size_t at = 0) const {
+    const std::string got = trim(attribute_.value).empty() ? "nothing" : quoted(attribute_.value);
+    complaints_.error(attribute_.place(at),
+                      "'" + attribute_.name + "' wants " + wanted_ + ", got " + got + behind);
+    return std::nullopt;
+  }
+
+ private:
+  const Attribute& attribute_;
+  std::string wanted_;
+  Complaints& complaints_;
+};
+
+/// What is wrong with a value where `unit` is wanted, as the end of a sentence; nothing if all is well.
+std::optional<std::string> objection(const Value& value, std::string_view unit) {
+  const bool is_bare_angle = is_angle(unit) && value.is_literal && value.is_bare;
+  const Dimension& got = value.quantity.dimension;
+  if (got == dimension_of(unit) && !is_bare_angle) return {};
+  if (got.is_plain() && value.is_literal && value.is_bare)
+    return wanted_by(unit).find("such as") == std::string::npos ? " without a unit" : "";
+  return got.is_plain() ? " which is a plain number" : " which is " + got.name();
+}
+
+std::optional<std::vector<double>> read_values(const Attribute& attribute, std::string_view unit,
+                                               const Scope& scope, Complaints& complaints,
+                                               const Refusal& refuse) {
+  attribute.used = true;
+  std::optional<ValueMistake> mistake;
+  const auto values = evaluate_pieces(attribute.value, attribute.value_at, scope, complaints, mistake);
+  if (mistake) return refuse(mistake->reason.empty() ? "" : ": " + mistake->reason, mistake->at);
+  if (!values) return {};
+  std::vector<double> result;
+  for (const Value& each : *values) {
+    if (const auto why = objection(each, unit)) return refuse(*why);
+    if (!std::isfinite(each.quantity.value)) return refuse(": it is out of range");
+    result.push_back(each.quantity.value);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string wanted_by(std::string_view unit) {
+  struct Noun {
+    const char *unit, *noun, *example;
+  };
+  constexpr Noun nouns[] = {{"m", "a length", "1 mm"},
+                            {"s", "a time", "1 us"},
+                            {"kg", "a mass", "1 g"},
+                            {"m/s", "a velocity", "0.1 m/s"},
+                            {"kg/m^3", "a density", "1200 kg/m^3"}};
+  if (is_angle(unit)) return "an angle such as \"30 degree\"";
+  const Dimension dimension = dimension_of(unit);
+  if (dimension.is_plain()) return "a plain number";
+  for (const Noun& each : nouns)
+    if (dimension == dimension_of(each.unit))
+      return std::string(each.noun) + " such as " + quoted(each.example);
+  return std::string(unit);
+}
+
+std::optional<double> read_quantity(const Attribute& attribute, std::string_view unit, const Scope& scope,
+                                    Complaints& complaints) {
+  const Refusal refuse(attribute, wanted_by(unit), complaints);
+  const auto values = read_values(attribute, unit, scope, complaints, refuse);
+  if (!values) return {};
+  if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
+  return values->front();
+}
+
+std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
+                                                   const Scope& scope, Complaints& complaints) {
+  return read_values(attribute, unit, scope, complaints,
+                     Refusal(attribute, "values, each " + wanted_by(unit), complaints));
+}
+
+std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view unit, const Scope& scope,
+                                Complaints& complaints) {
+  const std::string example = dimension_of(unit).is_plain() ? "1 0 0" : "1 0 0 " + std::string(unit);
+  const Refusal refuse(attribute, "three values such as " + quoted(example), complaints);
+  const auto values = read_values(attribute, unit, scope, complaints, refuse);
+  if (!values) return {};
+  if (values->size() != 3)
+    return refuse(values->size() == 1 ? " which is one value"
+                                      : " which are " + std::to_string(values->size()) + " values");
+  return Vec3((*values)[0], (*values)[1], (*values)[2]);
+}
+
+std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
+                                         Complaints& complaints) {
+  constexpr double largest = 9007199254740992.0;  // 2^53: up to here a double holds every whole number
+  const Refusal refuse(attribute, "a whole number", complaints);
+  const auto values = read_values(attribute, "1", scope, complaints, refuse);
+  if (!values) return {};
+  if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
+  const double value = values->front();
+  if (value != std::floor(value) || std::abs(value) > largest) return refuse();
+  return static_cast<std::int64_t>(value);
+}
+
+std::optional<std::string> read_text(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
+  attribute.used = true;
+  const auto text = text_of(attribute.value, attribute.value_at, scope, complaints);
+  if (!text) return {};
+  if (!trim(*text).empty()) return std::string(trim(*text));
+  complaints.error(attribute.value_at, "'" + attribute.name + "' is empty");
+  return {};
+}
+
+std::optional<std::vector<std::string>> read_words(const Attribute& attribute, const Scope& scope,
+                                                   Complaints& complaints) {
+  const auto text = read_text(attribute, scope, complaints);
+  if (!text) return {};
+  return split_words(*text);
+}
+
+std::optional<std::string> read_choice(const Attribute& attribute, const std::vector<std::string>& allowed,
+                                       const Scope& scope, Complaints& complaints) {
+  const auto text = read_text(attribute, scope, complaints);
+  if (!text) return {};
+  for (const std::string& each : allowed)
+    if (each == *text) return each;
+  const std::string near = closest(*text, allowed);
+  return Refusal(attribute, join(allowed, " or "),
+                 complaints)(near.empty() ? "" : ". Did you mean '" + near + "'?");
+}
+
+std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
+  const auto text = read_text(attribute, scope, complaints);
+  if (!text) return {};
+  if (*text == "yes" || *text == "true") return true;
+  if (*text == "no" || *text == "false") return false;
+  return Refusal(attribute, "yes or no", complaints)();
+}
+
+std::optional<std::vector<Value>> values_of(std::string_view text, const Location& start, const Scope& scope,
+                                            Complaints& complaints) {
+  std::optional<ValueMistake> mistake;
+  auto values = evaluate_pieces(text, start, scope, complaints, mistake);
+  if (mistake)
+    complaints.error(locate(start, mistake->at), "a number with its unit is wanted here, got " +
+                                                     quoted(text) +
+                                                     (mistake->reason.empty() ? "" : ": " + mistake->reason));
+  return values;
+}
+
+namespace {
+
+/// The text of a parameter, or the value of an expression.
+std::optional<std::string> substituted(std::string_view inside, const Location& at, const Scope& scope,
+                                       Complaints& complaints) {
+  const std::string_view name = trim(inside);
+  if (scope.has(name)) return scope.text(name, at, complaints);
+  const auto compiled = Expression::compile(inside, at, scope, {}, complaints);
+  if (!compiled) return {};
+  return format_quantity(Quantity{compiled->evaluate(), compiled->dimension()});
+}
+
+}  // namespace
+
+std::optional<std::string> text_of(std::string_view text, const Location& start, const Scope& scope,
+                                   Complaints& complaints) {
+  constexpr std::size_t longest = 100000;
+  std::string result;
+  ValueMistake mistake;
+  const auto pieces = pieces_of(text, mistake);
+  if (!pieces) {
+    complaints.error(locate(start, mistake.at), mistake.reason);
+    return {};
+  }
+  std::size_t copied = 0;
+  for (const Piece& piece : *pieces) {
+    if (!piece.is_expression) continue;
+    const auto value = substituted(piece.text, locate(start, piece.at), scope, complaints);
+    if (!value) return {};
+    result += std::string(text.substr(copied, piece.at - 2 - copied)) + *value;
+    copied = piece.at + piece.text.size() + 1;
+    if (result.size() <= longest) continue;
+    complaints.error(start, "this text becomes longer than " + std::to_string(longest) + " characters");
+    return {};
+  }
+  return result + std::string(text.substr(copied));
+}
+
+}  // namespace beadwork

@@ -1,0 +1,115 @@
+#include "core/deck/scope.hpp"
+
+#include <algorithm>
+
+#include "core/base/text.hpp"
+#include "core/deck/read.hpp"
+
+namespace beadwork {
+
+namespace {
+
+constexpr std::size_t deepest_chain = 100;
+
+}  // namespace
+
+void Scope::add(Parameter parameter, Complaints& complaints) {
+  if (const Entry* first = find(parameter.name)) {
+    complaints.error(parameter.at, "parameter '" + parameter.name + "' is already defined at " +
+                                       first->parameter.at.where());
+  } else {
+    index_.emplace(parameter.name, entries_.size());
+    entries_.push_back({std::move(parameter), false, {}});
+  }
+}
+
+void Scope::set(std::string_view name, std::string_view text, Complaints& complaints) {
+  const std::string spelt = std::string(name) + "=" + std::string(text);
+  const auto source = std::make_shared<const Source>(Source{"--set", spelt});
+  const auto found = index_.find(name);
+  if (found == index_.end())
+    return complaints.error({source, 1, 1, 0}, "the deck has no parameter '" + std::string(name) + "'" +
+                                                   did_you_mean(name, names()));
+  Entry& entry = entries_[found->second];
+  entry.parameter.text = text;
+  entry.parameter.text_at = {source, 1, static_cast<int>(name.size()) + 2, name.size() + 1};
+  entry.values.reset();
+}
+
+const Scope::Entry* Scope::find(std::string_view name) const {
+  const auto found = index_.find(name);
+  return found == index_.end() ? nullptr : &entries_[found->second];
+}
+
+std::vector<std::string> Scope::names() const {
+  std::vector<std::string> result;
+  for (const Entry& each : entries_) result.push_back(each.parameter.name);
+  return result;
+}
+
+/// The entry, marked as running; the caller pops it. Null, with an error, if it is unknown or runs already.
+const Scope::Entry* Scope::start(std::string_view name, const Location& asked_at,
+                                 Complaints& complaints) const {
+  const Entry* entry = find(name);
+  if (!entry) {
+    complaints.error(asked_at, "no parameter '" + std::string(name) + "'" + did_you_mean(name, names()));
+    return nullptr;
+  }
+  entry->used = true;
+  const auto first = std::find(running_.begin(), running_.end(), entry);
+  if (first != running_.end()) {
+    std::string circle;
+    for (auto each = first; each != running_.end(); ++each) circle += (*each)->parameter.name + " -> ";
+    complaints.error(entry->parameter.text_at, "parameter '" + entry->parameter.name +
+                                                   "' depends on itself: " + circle + entry->parameter.name);
+    return nullptr;
+  }
+  if (running_.size() == deepest_chain) {
+    complaints.error(entry->parameter.text_at,
+                     "parameters refer to one another more than " + std::to_string(deepest_chain) + " deep");
+    return nullptr;
+  }
+  running_.push_back(entry);
+  return entry;
+}
+
+std::optional<std::vector<Value>> Scope::values(std::string_view name, const Location& asked_at,
+                                                Complaints& complaints) const {
+  const Entry* known = find(name);
+  if (known && known->values) {
+    known->used = true;
+    return *known->values;
+  }
+  const Entry* entry = start(name, asked_at, complaints);
+  if (!entry) return {};
+  entry->values = values_of(entry->parameter.text, entry->parameter.text_at, *this, complaints);
+  running_.pop_back();
+  return *entry->values;
+}
+
+std::optional<Quantity> Scope::quantity(std::string_view name, const Location& asked_at,
+                                        Complaints& complaints) const {
+  const auto found = values(name, asked_at, complaints);
+  if (!found) return {};
+  if (found->size() == 1) return found->front().quantity;
+  complaints.error(asked_at, "one value is wanted here, but parameter '" + std::string(name) + "' holds " +
+                                 std::to_string(found->size()));
+  return {};
+}
+
+std::optional<std::string> Scope::text(std::string_view name, const Location& asked_at,
+                                       Complaints& complaints) const {
+  const Entry* entry = start(name, asked_at, complaints);
+  if (!entry) return {};
+  auto result = text_of(entry->parameter.text, entry->parameter.text_at, *this, complaints);
+  running_.pop_back();
+  return result;
+}
+
+void Scope::complain_about_unused(Complaints& complaints) const {
+  for (const Entry& each : entries_)
+    if (!each.used && !each.parameter.from_library)
+      complaints.error(each.parameter.at, "parameter '" + each.parameter.name + "' is used nowhere");
+}
+
+}  // namespace beadwork
