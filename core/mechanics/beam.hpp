@@ -41,29 +41,29 @@ inline BeamRest<Real> round_beam(const Vec3& d, Real young, Real poisson, Real r
 
 /// Forces and torques on the ends: minus the gradient of (B1). One square root, one division.
 template <class T>
-Wrench<T> beam_wrench(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1,
-                      const Quaternion<T>& q2) {
-  const T l = sqrt(d.dot(d));
+[[gnu::always_inline]] inline Wrench<T> beam_wrench(const BeamRest<T>& rest, const Same<Vec<T>>& d,
+                                                    const Quaternion<T>& q1, const Quaternion<T>& q2) {
+  const T l = sqrt(dot(d, d));
   const T inverse = T(1) / l;
   const Vec<T> e = inverse * d;
   const Vec<T> n1 = rotate(q1, rest.axis);
   const Vec<T> n2 = rotate(q2, rest.axis);
-  const T c1 = e.dot(n1);
-  const T c2 = e.dot(n2);
+  const T c1 = dot(e, n1);
+  const T c2 = dot(e, n2);
 
   const T g1 = c1 + c1 + c2;
   const T g2 = c2 + c2 + c1;
   const Vec<T> g = rest.bending * (g1 * n1 + g2 * n2);
-  const T along = e.dot(g);
-  const Vec<T> force = inverse * g - (rest.axial * (l - rest.length) + inverse * along) * e;
+  const T along = dot(e, g);
+  const T pull = rest.axial * (l - rest.length) + inverse * along;
 
   // dphi = dtheta2.(w n1 + u x n1): the twisting couple acts on both ends, in opposite senses
   const Quaternion<T> turn = relative(q1, q2);
-  const T couple = (rest.torsion + rest.torsion) * turn.v.dot(n1);
+  const T couple = (rest.torsion + rest.torsion) * dot(turn.v, n1);
   const Vec<T> lever = rest.bending * (g1 * e - n2) - couple * turn.v;
-  const Vec<T> torque1 = n1.cross(lever) + (couple * turn.w) * n1;
-  const Vec<T> torque2 = g.cross(e) - torque1;  // T1 + T2 + d x F2 = 0: angular momentum is kept to round-off
-  return {force, torque1, torque2};
+  const Vec<T> torque1 = cross(n1, lever) + (couple * turn.w) * n1;
+  // T1 + T2 + d x F2 = 0: angular momentum is kept to round-off
+  return {inverse * g - pull * e, copy(torque1), cross(g, e) - torque1};
 }
 
 template <class T>
@@ -76,14 +76,14 @@ struct BeamEnergy {
 template <class T>
 BeamEnergy<T> beam_energy(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1,
                           const Quaternion<T>& q2) {
-  const T l = sqrt(d.dot(d));
+  const T l = sqrt(dot(d, d));
   const Vec<T> e = (T(1) / l) * d;
   const Vec<T> n1 = rotate(q1, rest.axis);
-  const Vec<T> t1 = e.cross(n1);
-  const Vec<T> t2 = e.cross(rotate(q2, rest.axis));
+  const Vec<T> t1 = cross(e, n1);
+  const Vec<T> t2 = cross(e, rotate(q2, rest.axis));
   const T stretch = l - rest.length;
-  const T phi = T(2) * relative(q1, q2).v.dot(n1);
-  return {T(0.5) * rest.axial * stretch * stretch, rest.bending * (t1.dot(t1) + t1.dot(t2) + t2.dot(t2)),
+  const T phi = T(2) * dot(relative(q1, q2).v, n1);
+  return {T(0.5) * rest.axial * stretch * stretch, rest.bending * (dot(t1, t1) + dot(t1, t2) + dot(t2, t2)),
           T(0.5) * rest.torsion * phi * phi};
 }
 
@@ -91,7 +91,7 @@ BeamEnergy<T> beam_energy(const BeamRest<T>& rest, const Same<Vec<T>>& d, const 
 template <class T>
 T beam_cosine(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1,
               const Quaternion<T>& q2) {
-  return min(d.dot(rotate(q1, rest.axis)), d.dot(rotate(q2, rest.axis))) / sqrt(d.dot(d));
+  return min(dot(d, rotate(q1, rest.axis)), dot(d, rotate(q2, rest.axis))) / sqrt(dot(d, d));
 }
 
 /// Internal forces at the ends of a beam. The bending moment varies linearly between them: its maximum is at
@@ -105,11 +105,11 @@ struct BeamSection {
 
 template <class T>
 BeamSection<T> beam_section(const Same<Vec<T>>& d, const Wrench<T>& on) {
-  const Vec<T> e = (T(1) / sqrt(d.dot(d))) * d;
-  const T torque = e.dot(on.torque1);
+  const Vec<T> e = (T(1) / sqrt(dot(d, d))) * d;
+  const T torque = dot(e, on.torque1);
   const Vec<T> m1 = on.torque1 - torque * e;
   const Vec<T> m2 = on.torque2 + torque * e;
-  return {-e.dot(on.force), sqrt(m1.dot(m1)), sqrt(m2.dot(m2)), torque};
+  return {-dot(e, on.force), sqrt(dot(m1, m1)), sqrt(dot(m2, m2)), torque};
 }
 
 template <class T>

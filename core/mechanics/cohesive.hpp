@@ -23,7 +23,7 @@ struct Softening {
 
 /// 1 - d. Exactly 1 up to the onset, exactly 0 from u_p on.
 template <class T>
-T soundness(const Softening<T>& law, Same<T> history) {
+[[gnu::always_inline]] inline T soundness(const Softening<T>& law, Same<T> history) {
   const T k = max(history, law.onset);
   return max(T(0), law.onset * (law.open - k) / (k * (law.open - law.onset)));
 }
@@ -35,7 +35,7 @@ T damage(const Softening<T>& law, Same<T> history) {
 
 /// Pull between the faces, per area [Pa]. Negative in compression, which is elastic whatever the damage.
 template <class T>
-T traction(const Softening<T>& law, Same<T> opening, Same<T> history) {
+[[gnu::always_inline]] inline T traction(const Softening<T>& law, Same<T> opening, Same<T> history) {
   const T sound = soundness(law, max(history, opening));
   return select(opening < T(0), T(1), sound) * law.stiffness * opening;
 }
@@ -88,14 +88,15 @@ struct CohesivePull {
 /// u_n = l - l0, d = x2 - x1.
 template <class T>
 T normal_opening(const CohesiveRest<T>& rest, const Same<Vec<T>>& d) {
-  return sqrt(d.dot(d)) - rest.length;
+  return sqrt(dot(d, d)) - rest.length;
 }
 
 /// The normal law alone: a central force, no rotations.
 template <class T>
-CohesivePull<T> cohesive_pull(const Softening<T>& law, const CohesiveRest<T>& rest, const Same<Vec<T>>& d,
-                              Same<T> history) {
-  const T l = sqrt(d.dot(d));
+[[gnu::always_inline]] inline CohesivePull<T> cohesive_pull(const Softening<T>& law,
+                                                            const CohesiveRest<T>& rest,
+                                                            const Same<Vec<T>>& d, Same<T> history) {
+  const T l = sqrt(dot(d, d));
   const T u_n = l - rest.length;
   const T pull = rest.area * traction(law, u_n, history);
   return {(-pull / l) * d, max(history, u_n)};
@@ -142,23 +143,23 @@ struct ContactState {
 };
 
 template <class T>
-ContactState<T> contact_state(const CohesiveRest<T>& rest, const ContactArms<T>& arms, const Same<Vec<T>>& d,
-                              const Quaternion<T>& q1, const Quaternion<T>& q2) {
-  ContactState<T> at;
-  at.length = sqrt(d.dot(d));
-  at.normal = (T(1) / at.length) * d;
-  at.arm1 = rotate(q1, arms.arm1);
-  at.arm2 = rotate(q2, arms.arm2);
-  const Vec<T> u = d + at.arm2 - at.arm1;
-  at.along = u.dot(at.normal);
-  at.slip = u - at.along * at.normal;
-  at.opening = {at.length - rest.length, sqrt(at.slip.dot(at.slip))};
-  return at;
+[[gnu::always_inline]] inline ContactState<T> contact_state(const CohesiveRest<T>& rest,
+                                                            const ContactArms<T>& arms, const Same<Vec<T>>& d,
+                                                            const Quaternion<T>& q1,
+                                                            const Quaternion<T>& q2) {
+  const T l = sqrt(dot(d, d));
+  const Vec<T> n = (T(1) / l) * d;
+  const Vec<T> arm1 = rotate(q1, arms.arm1);
+  const Vec<T> arm2 = rotate(q2, arms.arm2);
+  const Vec<T> u = d + arm2 - arm1;
+  const T along = dot(u, n);
+  const Vec<T> slip = u - along * n;
+  return {copy(n), l, copy(arm1), copy(arm2), copy(slip), along, {l - rest.length, sqrt(dot(slip, slip))}};
 }
 
 /// Whether the contact has failed: either mode at its u_p takes both. A mask of T.
 template <CohesiveModes modes, class T>
-auto has_failed(const CohesiveLaws<T>& laws, const Openings<T>& history) {
+[[gnu::always_inline]] inline auto has_failed(const CohesiveLaws<T>& laws, const Openings<T>& history) {
   if constexpr (modes == CohesiveModes::shear)
     return history.shear >= laws.shear.open;
   else
@@ -167,8 +168,9 @@ auto has_failed(const CohesiveLaws<T>& laws, const Openings<T>& history) {
 
 /// The history if this state is accepted. A failed contact remembers no more: what it dissipated stands.
 template <CohesiveModes modes, class T>
-Openings<T> next_history(const CohesiveLaws<T>& laws, const Openings<T>& opening,
-                         const Openings<T>& history) {
+[[gnu::always_inline]] inline Openings<T> next_history(const CohesiveLaws<T>& laws,
+                                                       const Openings<T>& opening,
+                                                       const Openings<T>& history) {
   const auto failed = has_failed<modes>(laws, history);
   return {select(failed, history.normal, max(history.normal, opening.normal)),
           select(failed, history.shear, max(history.shear, opening.shear))};
@@ -176,11 +178,12 @@ Openings<T> next_history(const CohesiveLaws<T>& laws, const Openings<T>& opening
 
 /// Share of the stiffness that acts in each mode, given the history that includes the present state.
 template <CohesiveModes modes, class T>
-Openings<T> active_share(const CohesiveLaws<T>& laws, const Openings<T>& opening,
-                         const Openings<T>& history) {
+[[gnu::always_inline]] inline Openings<T> active_share(const CohesiveLaws<T>& laws,
+                                                       const Openings<T>& opening,
+                                                       const Openings<T>& history) {
   const auto failed = has_failed<modes>(laws, history);
   const T shear = select(failed, T(0), soundness(laws.shear, history.shear));
-  if constexpr (modes == CohesiveModes::shear) return {T(0), shear};
+  if constexpr (modes == CohesiveModes::shear) return {T(0), shear};  // no normal law, no normal force
   const T pulled = select(failed, T(0), soundness(laws.normal, history.normal));
   return {select(opening.normal < T(0), T(1), pulled), shear};
 }
@@ -195,17 +198,19 @@ struct Cohesion {
 /// hence the factor 1 - u.n/l of the force, and both ends' forces on one line: angular momentum is kept to
 /// round-off.
 template <CohesiveModes modes, class T>
-Cohesion<T> cohesive_wrench(const CohesiveLaws<T>& laws, const CohesiveRest<T>& rest,
-                            const ContactArms<T>& arms, const Same<Vec<T>>& d, const Quaternion<T>& q1,
-                            const Quaternion<T>& q2, const Openings<T>& history) {
+[[gnu::always_inline]] inline Cohesion<T> cohesive_wrench(const CohesiveLaws<T>& laws,
+                                                          const CohesiveRest<T>& rest,
+                                                          const ContactArms<T>& arms, const Same<Vec<T>>& d,
+                                                          const Quaternion<T>& q1, const Quaternion<T>& q2,
+                                                          const Openings<T>& history) {
   const ContactState<T> at = contact_state<T>(rest, arms, d, q1, q2);
   const Openings<T> next = next_history<modes>(laws, at.opening, history);
   const Openings<T> share = active_share<modes>(laws, at.opening, next);
   const Vec<T> drag = (-rest.area * share.shear * laws.shear.stiffness) * at.slip;
-  Vec<T> force = (T(1) - at.along / at.length) * drag;
-  if constexpr (modes == CohesiveModes::both)
-    force -= (rest.area * share.normal * laws.normal.stiffness * at.opening.normal) * at.normal;
-  return {{force, drag.cross(at.arm1), at.arm2.cross(drag)}, next};
+  const T pull = rest.area * share.normal * laws.normal.stiffness * at.opening.normal;
+  return {
+      {(T(1) - at.along / at.length) * drag - pull * at.normal, cross(drag, at.arm1), cross(at.arm2, drag)},
+      {next.normal, next.shear}};
 }
 
 /// Recoverable energy of the contact [J].

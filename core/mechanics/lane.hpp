@@ -28,4 +28,45 @@ inline float select(bool mask, float a, float b) { return mask ? a : b; }
 template <class T>
 using Same = std::type_identity_t<T>;
 
+template <class T>
+[[gnu::always_inline]] inline Vec<T> operator+(const Vec<T>& a, const Vec<T>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+template <class T>
+[[gnu::always_inline]] inline Vec<T> operator-(const Vec<T>& a, const Vec<T>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+template <class T>
+[[gnu::always_inline]] inline Vec<T> operator-(const Vec<T>& a) {
+  return {-a[0], -a[1], -a[2]};
+}
+
+template <class T>
+[[gnu::always_inline]] inline Vec<T> operator*(const Same<T>& s, const Vec<T>& a) {
+  return {s * a[0], s * a[1], s * a[2]};
+}
+
+template <class T>
+[[gnu::always_inline]] inline Vec<T> operator*(const Vec<T>& a, const Same<T>& s) {
+  return {a[0] * s, a[1] * s, a[2] * s};
+}
+
+template <class T>
+[[gnu::always_inline]] inline T dot(const Vec<T>& a, const Vec<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class T>
+[[gnu::always_inline]] inline Vec<T> cross(const Vec<T>& a, const Vec<T>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A vector into a result, number by number: g++ copies the object as a block of memory.
+template <class T>
+[[gnu::always_inline]] inline Vec<T> copy(const Vec<T>& a) {
+  return {a[0], a[1], a[2]};
+}
+
 }  // namespace beadwork

@@ -9,42 +9,42 @@
 namespace beadwork {
 
 template <class T>
-Quaternion<T> conjugate(const Quaternion<T>& q) {
+[[gnu::always_inline]] inline Quaternion<T> conjugate(const Quaternion<T>& q) {
   return {q.w, -q.v};
 }
 
 /// First b, then a.
 template <class T>
-Quaternion<T> operator*(const Quaternion<T>& a, const Quaternion<T>& b) {
-  return {a.w * b.w - a.v.dot(b.v), a.w * b.v + b.w * a.v + a.v.cross(b.v)};
+[[gnu::always_inline]] inline Quaternion<T> operator*(const Quaternion<T>& a, const Quaternion<T>& b) {
+  return {a.w * b.w - dot(a.v, b.v), a.w * b.v + b.w * a.v + cross(a.v, b.v)};
 }
 
 /// The rotation from one orientation to another, seen from the world: to * conjugate(from).
 template <class T>
-Quaternion<T> relative(const Quaternion<T>& from, const Quaternion<T>& to) {
-  return {from.w * to.w + from.v.dot(to.v), from.w * to.v - to.w * from.v + from.v.cross(to.v)};
+[[gnu::always_inline]] inline Quaternion<T> relative(const Quaternion<T>& from, const Quaternion<T>& to) {
+  return {from.w * to.w + dot(from.v, to.v), from.w * to.v - to.w * from.v + cross(from.v, to.v)};
 }
 
 template <class T>
-T squared_norm(const Quaternion<T>& q) {
-  return q.w * q.w + q.v.dot(q.v);
+[[gnu::always_inline]] inline T squared_norm(const Quaternion<T>& q) {
+  return q.w * q.w + dot(q.v, q.v);
 }
 
 /// Body to world in two cross products instead of a matrix.
 template <class T>
-Vec<T> rotate(const Quaternion<T>& q, const Same<Vec<T>>& body) {
-  const Vec<T> t = T(2) * q.v.cross(body);
-  return body + q.w * t + q.v.cross(t);
+[[gnu::always_inline]] inline Vec<T> rotate(const Quaternion<T>& q, const Same<Vec<T>>& body) {
+  const Vec<T> t = T(2) * cross(q.v, body);
+  return body + q.w * t + cross(q.v, t);
 }
 
 template <class T>
-Vec<T> rotate_back(const Quaternion<T>& q, const Same<Vec<T>>& world) {
-  const Vec<T> t = T(2) * world.cross(q.v);
-  return world + q.w * t + t.cross(q.v);
+[[gnu::always_inline]] inline Vec<T> rotate_back(const Quaternion<T>& q, const Same<Vec<T>>& world) {
+  const Vec<T> t = T(2) * cross(world, q.v);
+  return world + q.w * t + cross(t, q.v);
 }
 
 template <class T>
-Quaternion<T> normalise(const Quaternion<T>& q) {
+[[gnu::always_inline]] inline Quaternion<T> normalise(const Quaternion<T>& q) {
   const T scale = T(1) / sqrt(squared_norm(q));
   return {q.w * scale, q.v * scale};
 }
@@ -52,7 +52,7 @@ Quaternion<T> normalise(const Quaternion<T>& q) {
 /// One Newton step towards length 1: for a quaternion that left it by rounding, at the cost of no root and no
 /// division.
 template <class T>
-Quaternion<T> renormalise(const Quaternion<T>& q) {
+[[gnu::always_inline]] inline Quaternion<T> renormalise(const Quaternion<T>& q) {
   const T scale = T(1.5) - T(0.5) * squared_norm(q);
   return {q.w * scale, q.v * scale};
 }
@@ -71,7 +71,7 @@ inline Quat exp_map(const Vec3& turn) {
 /// would be far beyond its stable length. Its own series because the sine of a library may pick other bits on
 /// another processor.
 template <class T>
-Quaternion<T> increment(const Vec<T>& turn) {
+[[gnu::always_inline]] inline Quaternion<T> increment(const Vec<T>& turn) {
   constexpr double cosine[] = {1.,
                                -1. / 2,
                                1. / 24,
@@ -90,7 +90,7 @@ Quaternion<T> increment(const Vec<T>& turn) {
                              1. / 6227020800.,
                              -1. / 1307674368000.,
                              1. / 355687428096000.};
-  const T s = T(0.25) * turn.dot(turn);
+  const T s = T(0.25) * dot(turn, turn);
   T c = T(cosine[8]);
   T half_sinc = T(sine[8]);
   for (int n = 7; n >= 0; --n) {
