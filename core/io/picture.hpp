@@ -42,6 +42,7 @@ class Canvas {
  public:
   Canvas(const Camera&, int width_in_pixels);
 
+  /// Quickest from front to back.
   void sphere(const Vec3& centre, Real radius, Color);
   /// Flat and unshaded, edge darkened: a mark, not a body.
   void disc(const Vec3& centre, const Vec3& normal, Real radius, Color);
@@ -65,6 +66,9 @@ class Canvas {
   };
 
   Point project(const Vec3&) const;
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
   void put(int x, int y, float depth, Color);
   template <class Paint>
   void for_box(float x0, float x1, float y0, float y1, const Paint&);

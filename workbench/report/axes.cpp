@@ -51,7 +51,7 @@ std::vector<double> ticks(double from, double to, int wanted) {
 std::string Axes::svg() const {
   std::string out = "<g class=\"axes\">";
   const double base = height - bottom;
-  for (const double v : ticks(y.low, y.high, 6))
+  for (const double v : ticks(y.low, y.high, 5))
     out += fmt::format(
         "<line class=\"grid{4}\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>"
         "<text class=\"tick\" x=\"{3}\" y=\"{2:.1f}\" dy=\".35em\" text-anchor=\"end\">{5}</text>",

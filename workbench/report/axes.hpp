@@ -18,8 +18,8 @@ Range united(const Range&, const Range&);
 Range padded(Range);
 
 struct Axes {
-  static constexpr double width = 760, height = 400;
-  static constexpr double left = 66, right = 18, top = 26, bottom = 50;
+  static constexpr double width = 640, height = 350;
+  static constexpr double left = 58, right = 16, top = 26, bottom = 48;
 
   Range x, y;
   std::string x_label, y_label;

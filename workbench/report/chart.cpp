@@ -141,6 +141,7 @@ std::string markers_of(const Chart& chart, const Axes& axes) {
 }
 
 std::string legend_of(const Chart& chart) {
+  if (chart.series.size() == 1 && !chart.y_label.empty()) return "<div class=\"legend\"></div>";  // the axis says it
   std::string out = "<div class=\"legend\">";
   for (const Series& s : chart.series) {
     const char* kind = s.stroke == Stroke::dashed ? "dashed" : s.stroke == Stroke::points ? "ring"

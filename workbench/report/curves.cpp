@@ -92,7 +92,7 @@ void add_references(Chart& chart, const Curve& curve, const Column& x, const std
   }
 }
 
-std::vector<Marker> markers(const Table& table, const std::vector<FrameHead>& pictured) {
+std::vector<Marker> markers(const Table& table, const std::vector<record::FrameHead>& pictured) {
   std::vector<Marker> out;
   for (std::size_t k = 0; k < pictured.size(); ++k) out.push_back({row_at(table, pictured[k]), std::to_string(k + 1)});
   return out;
@@ -100,14 +100,15 @@ std::vector<Marker> markers(const Table& table, const std::vector<FrameHead>& pi
 
 /// One chart for all columns of one unit.
 std::string panel(const Curve& curve, const Column& x, const std::vector<const Column*>& group, bool alone,
-                  const std::vector<FrameHead>& pictured) {
+                  const std::vector<record::FrameHead>& pictured) {
   double most = 0;
   for (const Column* column : group) most = std::max(most, largest(column->values));
   const std::string& unit = group.front()->unit;
   const Scale sx = scale_for(curve, "x", x.unit, largest(x.values)), sy = scale_for(curve, "y", unit, most);
   Chart chart;
   const std::string named = text_of(curve.sidecar, "title", spaced(curve.name));
-  chart.title = alone || group.size() > 1 ? named : named + ": " + group.front()->name;
+  const bool said = alone || group.size() > 1 || named == group.front()->name;
+  chart.title = said ? named : named + ": " + group.front()->name;
   chart.x_name = text_of(curve.sidecar, "x_label", x.name);
   chart.x_unit = sx.unit == "1" ? "" : sx.unit;
   chart.x_label = with_unit(chart.x_name, sx.unit);
@@ -122,7 +123,7 @@ std::string panel(const Curve& curve, const Column& x, const std::vector<const C
   return figure(chart);
 }
 
-std::string charts_of(const Curve& curve, const std::vector<FrameHead>& pictured) {
+std::string charts_of(const Curve& curve, const std::vector<record::FrameHead>& pictured) {
   const Column* x = abscissa(curve);
   std::vector<std::vector<const Column*>> groups;
   for (const Column* column : ordinates(curve, x)) {
@@ -140,7 +141,7 @@ std::string charts_of(const Curve& curve, const std::vector<FrameHead>& pictured
 
 }  // namespace
 
-std::size_t row_at(const Table& table, const FrameHead& head) {
+std::size_t row_at(const Table& table, const record::FrameHead& head) {
   const Column* time = table.find("time");
   const Column* clock = time ? time : table.find("step");
   if (!clock) return std::numeric_limits<std::size_t>::max();
@@ -151,7 +152,7 @@ std::size_t row_at(const Table& table, const FrameHead& head) {
   return best;
 }
 
-std::string loading_at(const RunFolder& run, const FrameHead& head) {
+std::string loading_at(const Run& run, const record::FrameHead& head) {
   for (const Curve& curve : run.curves) {
     const Column* x = abscissa(curve);
     const std::size_t row = row_at(curve.table, head);
@@ -163,7 +164,7 @@ std::string loading_at(const RunFolder& run, const FrameHead& head) {
   return "";
 }
 
-std::string curves(const RunFolder& run, const std::vector<FrameHead>& pictured) {
+std::string curves(const Run& run, const std::vector<record::FrameHead>& pictured) {
   std::string body;
   for (const Curve& curve : run.curves)
     if (!is_ledger(curve)) body += charts_of(curve, pictured);

@@ -15,6 +15,16 @@ namespace beadwork::report {
 
 namespace {
 
+/// What a key is called where its value is shown with its unit.
+std::string title_of(const std::string& key) {
+  static const std::map<std::string, std::string> known = {{"wall_seconds", "wall time"},
+                                                           {"loop_seconds", "time in the loop"},
+                                                           {"deck_sha256", "SHA-256 of the deck"},
+                                                           {"bond_updates_per_second", "bond updates"}};
+  const auto found = known.find(key);
+  return found == known.end() ? spaced(key) : found->second;
+}
+
 /// A value of the summary, in the unit that its key tells.
 std::string shown(const std::string& key, const Json& value, const std::string& unit) {
   if (value.is_string()) return escaped(value.get<std::string>());
@@ -37,7 +47,7 @@ std::string shown(const std::string& key, const Json& value, const std::string& 
 
 void add_rows(std::string& out, const Json& object, const std::string& before, const std::string& unit) {
   for (const auto& [key, value] : object.items()) {
-    const std::string name = before.empty() ? spaced(key) : before + ": " + spaced(key);
+    const std::string name = before.empty() ? title_of(key) : before + ": " + title_of(key);
     if (value.is_object())
       add_rows(out, value, name, unit);
     else
@@ -69,7 +79,7 @@ std::string histogram(const std::string& title, const Json& value) {
   return figure(bars);
 }
 
-std::string breaks_over_time(const BreakLog& log) {
+std::string breaks_over_time(const record::Breaks& log) {
   std::map<std::string, std::vector<double>> times;
   for (std::size_t i = 0; i < log.time.size(); ++i) times[log.mode[i]].push_back(log.time[i]);
   const Scale scale = readable("s", log.time.empty() ? 0 : *std::max_element(log.time.begin(), log.time.end()));
@@ -110,7 +120,7 @@ std::string facts_table(const Json& object, const std::string& unit_of_numbers) 
   return rows.empty() ? "" : "<table class=\"facts\"><tbody>" + rows + "</tbody></table>";
 }
 
-std::string facts(const RunFolder& run) {
+std::string facts(const Run& run) {
   static constexpr std::array<const char*, 7> headline = {"elements", "bonds", "steps", "time_step", "wall_seconds",
                                                           "bond_updates_per_second", "threads"};
   static constexpr std::array<const char*, 6> elsewhere = {"status", "exit_reason", "scene", "energy", "breaks", "packing"};
@@ -125,7 +135,7 @@ std::string facts(const RunFolder& run) {
     } else {
       text = shown(key, *value, "");
     }
-    tiles += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", escaped(spaced(key)), text);
+    tiles += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", escaped(title_of(key)), text);
   }
   Json rest = Json::object();
   for (const auto& [key, value] : run.summary.items()) {
@@ -139,13 +149,13 @@ std::string facts(const RunFolder& run) {
   return out.empty() ? "" : "<section>" + out + "</section>\n";
 }
 
-std::string breaks(const RunFolder& run) {
+std::string breaks(const Run& run) {
   std::string table;
   const auto modes = run.summary.find("breaks");
   if (modes != run.summary.end()) table = facts_table(modes->is_object() ? *modes : Json{{"breaks", *modes}});
-  BreakLog log;
+  record::Breaks log;
   try {
-    if (run.record) log = run.record->breaks();
+    if (run.recorded) log = run.recorded->breaks();
   } catch (const std::exception& problem) {
     table += "<p class=\"note\">The log of breaks cannot be read: " + escaped(problem.what()) + ".</p>";
   }
@@ -162,7 +172,7 @@ std::string breaks(const RunFolder& run) {
   return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log) + "<div>" + table + words + ".</p></div></div>");
 }
 
-std::string packing(const RunFolder& run) {
+std::string packing(const Run& run) {
   const auto found = run.summary.find("packing");
   if (found == run.summary.end()) return "";
   std::string body;
@@ -180,7 +190,7 @@ std::string packing(const RunFolder& run) {
   return section("Packing", body);
 }
 
-std::string deck_and_log(const RunFolder& run) {
+std::string deck_and_log(const Run& run) {
   std::string body;
   if (!run.deck.empty())
     body += "<details><summary>The deck, as it was understood</summary><pre>" + escaped(run.deck) + "</pre></details>";

@@ -120,7 +120,7 @@ std::string table_of(const Curve& curve, const Account& account) {
 
 bool is_ledger(const Curve& curve) { return text_of(curve.sidecar, "kind", curve.name == "energy" ? "ledger" : "") == "ledger"; }
 
-std::string ledger(const RunFolder& run) {
+std::string ledger(const Run& run) {
   std::string body;
   for (const Curve& curve : run.curves) {
     if (!is_ledger(curve)) continue;

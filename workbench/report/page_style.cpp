@@ -49,9 +49,9 @@ h2 { font-size: 18px; font-weight: 640; margin: 0 0 10px; }
 p { margin: 6px 0 10px; }
 .notes { border-left: 4px solid var(--warn); }
 .notes ul { margin: 0; padding-left: 18px; } .notes li { margin: 2px 0; }
-.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(140px, 1fr)); gap: 14px 26px; margin: 0; }
+.tiles { display: grid; grid-template-columns: repeat(auto-fit, minmax(124px, 1fr)); gap: 14px 18px; margin: 0; }
 .tiles dt { color: var(--soft); font-size: 13px; } .tiles dt::first-letter { text-transform: uppercase; }
-.tiles dd { margin: 1px 0 0; font-size: 19px; font-weight: 600; line-height: 1.35; font-variant-numeric: tabular-nums; }
+.tiles dd { margin: 1px 0 0; font-size: 17.5px; font-weight: 620; line-height: 1.4; white-space: nowrap; font-variant-numeric: tabular-nums; }
 .tiles small { font-size: 13px; font-weight: 400; color: var(--soft); }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 th { text-align: left; font-weight: 450; color: var(--soft); padding: 5px 18px 5px 0; vertical-align: top; }
@@ -99,7 +99,8 @@ svg .probes text { fill: var(--ink); paint-order: stroke; stroke: var(--card); s
 .no { display: inline-grid; place-items: center; width: 21px; height: 21px; border: 1.4px solid var(--ink); border-radius: 50%;
   font-size: 12px; font-weight: 650; }
 .when { color: var(--soft); font-size: 13.5px; } .states { margin-left: auto; }
-.view { position: relative; width: fit-content; max-width: 100%; margin: 4px auto 0; padding-bottom: 17px; }
+.view { position: relative; width: fit-content; max-width: 100%; margin: 4px auto 0; }
+.view:has(.scale) { padding-bottom: 17px; }
 .view img { display: block; max-width: 100%; height: auto; }
 .scale { position: absolute; left: 0; bottom: 11px; height: 4px; border: solid var(--soft); border-width: 0 1.3px 1.3px; }
 .scale b { position: absolute; left: calc(100% + 7px); top: -9px; font: 12px/1.4 system-ui, sans-serif; color: var(--soft); white-space: nowrap; }

@@ -40,12 +40,14 @@ std::string scale_bar(const Camera& camera) {
                      number(length * scale.factor), scale.unit);
 }
 
-std::string picture(const Stage& stage, const View& view, const Frame& frame, const std::string& name) {
+std::string picture(const Stage& stage, const View& view, const record::Frame& frame, const std::string& name) {
+  // Views of one width share the bar under the last of them.
+  const bool last = &view == &stage.views.back() || stage.views.back().camera.width != view.camera.width;
   const Image image = draw(stage, view, frame, width_in_pixels(view.camera));
   const auto bytes = png(image);
   return fmt::format("<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">{}</div>",
                      base64(bytes.data(), bytes.size()), image.width, image.height, escaped(name + ", " + view.name),
-                     scale_bar(view.camera));
+                     last ? scale_bar(view.camera) : "");
 }
 
 std::string states_of(const Counts& n) {
@@ -57,7 +59,7 @@ std::string states_of(const Counts& n) {
          item("softening", n.softening, palette::softening) + item("broken", n.broken, palette::broken) + "</span>";
 }
 
-std::string figure_of(const RunFolder& run, const Stage& stage, const Frame& frame, std::size_t place) {
+std::string figure_of(const Run& run, const Stage& stage, const record::Frame& frame, std::size_t place) {
   const std::string loading = loading_at(run, frame.head);
   const Scale scale = readable("s", frame.head.time);
   const std::string when =
@@ -85,11 +87,11 @@ std::string explanation(const Stage& stage, bool bonds) {
   return out + "</div>";
 }
 
-std::vector<Frame> read_frames(RunFolder& run, const std::vector<FrameHead>& heads) {
-  std::vector<Frame> frames;
-  for (const FrameHead& head : heads) {
+std::vector<record::Frame> read_frames(Run& run, const std::vector<record::FrameHead>& heads) {
+  std::vector<record::Frame> frames;
+  for (const record::FrameHead& head : heads) {
     try {
-      frames.push_back(run.record->read(head));
+      frames.push_back(run.recorded->read(head));
     } catch (const std::exception& problem) {
       run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() + ").");
     }
@@ -99,37 +101,37 @@ std::vector<Frame> read_frames(RunFolder& run, const std::vector<FrameHead>& hea
 
 }  // namespace
 
-std::vector<FrameHead> frames_to_show(const RunFolder& run, std::size_t most) {
-  if (!run.record) return {};
-  const std::vector<FrameHead>& all = run.record->frames();
-  std::vector<FrameHead> flagged;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(flagged), [](const FrameHead& h) { return h.picture; });
-  const std::vector<FrameHead>& from = flagged.empty() ? all : flagged;
+std::vector<record::FrameHead> frames_to_show(const Run& run, std::size_t most) {
+  if (!run.recorded) return {};
+  const std::vector<record::FrameHead>& all = run.recorded->frames();
+  std::vector<record::FrameHead> flagged;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(flagged), [](const record::FrameHead& h) { return h.picture; });
+  const std::vector<record::FrameHead>& from = flagged.empty() ? all : flagged;
   if (from.size() <= most) return from;
-  std::vector<FrameHead> chosen;
+  std::vector<record::FrameHead> chosen;
   for (std::size_t k = 0; k < most; ++k)
     chosen.push_back(from[most == 1 ? from.size() - 1 : k * (from.size() - 1) / (most - 1)]);
   return chosen;
 }
 
-std::string pictures(RunFolder& run, const std::vector<FrameHead>& pictured) {
-  if (!run.record) return "";
+std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
+  if (!run.recorded) return "";
   if (pictured.empty()) {
     run.notes.emplace_back("run.h5 holds no frames, so there are no pictures of the specimen.");
     return "";
   }
-  std::vector<Frame> frames = read_frames(run, pictured);
-  std::vector<Frame> first = read_frames(run, {run.record->frames().front()});
-  std::erase_if(frames, [](const Frame& f) { return f.position.empty(); });
+  std::vector<record::Frame> frames = read_frames(run, pictured);
+  std::vector<record::Frame> first = read_frames(run, {run.recorded->frames().front()});
+  std::erase_if(frames, [](const record::Frame& f) { return f.position.empty(); });
   if (frames.empty()) return "";
-  const Frame& rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
-  for (Frame& frame : frames) complete_displacement(frame, rest);
-  const Stage stage = set_up(rest, frames, run.record->sets());
-  const bool bonds = std::any_of(frames.begin(), frames.end(), [](const Frame& f) { return !f.bonds.empty(); });
+  const record::Frame& rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
+  for (record::Frame& frame : frames) complete_displacement(frame, rest);
+  const Stage stage = set_up(rest, frames, run.recorded->sets());
+  const bool bonds = std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
   const double shape = stage.views.front().camera.width / stage.views.front().camera.height;
   std::string body = explanation(stage, bonds) + (shape > 2.2 ? "<div class=\"frames wide\">" : "<div class=\"frames\">");
-  for (const Frame& frame : frames) {
-    const auto head = std::find_if(pictured.begin(), pictured.end(), [&](const FrameHead& h) { return h.name == frame.head.name; });
+  for (const record::Frame& frame : frames) {
+    const auto head = std::find_if(pictured.begin(), pictured.end(), [&](const record::FrameHead& h) { return h.name == frame.head.name; });
     body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
   }
   return section("The specimen", body + "</div>");

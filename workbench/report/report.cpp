@@ -19,14 +19,14 @@ std::string badge(const std::string& status) {
   return "<span class=\"badge " + std::string(known ? status : "other") + "\">" + escaped(status) + "</span>";
 }
 
-std::string header(const RunFolder& run) {
+std::string header(const Run& run) {
   std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status);
   const std::string reason = text_of(run.summary, "exit_reason");
   if (!reason.empty()) out += "<p>" + escaped(reason) + "</p>";
   return out;
 }
 
-std::string notes(const RunFolder& run) {
+std::string notes(const Run& run) {
   std::string items;
   for (const std::string& sentence : run.notes) items += "<li>" + escaped(sentence) + "</li>";
   return items.empty() ? "" : "<section class=\"notes\"><ul>" + items + "</ul></section>\n";
@@ -71,8 +71,8 @@ void write(const fs::path& file, const std::string& text) {
 }  // namespace
 
 std::string write_report(const fs::path& run_folder) {
-  RunFolder run = open_run(run_folder);
-  const std::vector<FrameHead> shown = frames_to_show(run);
+  Run run = open_run(run_folder);
+  const std::vector<record::FrameHead> shown = frames_to_show(run);
   const std::string seen = pictures(run, shown);  // first: it may add notes
   std::string body = facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
   body = notes(run) + body;

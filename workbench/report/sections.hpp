@@ -4,29 +4,29 @@
 #include <string>
 #include <vector>
 
-#include "workbench/report/run_folder.hpp"
+#include "workbench/report/run.hpp"
 
 namespace beadwork::report {
 
-std::string facts(const RunFolder&);
-std::string curves(const RunFolder&, const std::vector<FrameHead>& pictured);
-std::string ledger(const RunFolder&);
-std::string breaks(const RunFolder&);
-std::string packing(const RunFolder&);
-std::string deck_and_log(const RunFolder&);
+std::string facts(const Run&);
+std::string curves(const Run&, const std::vector<record::FrameHead>& pictured);
+std::string ledger(const Run&);
+std::string breaks(const Run&);
+std::string packing(const Run&);
+std::string deck_and_log(const Run&);
 
 /// Pictures of the frames `pictured`; what cannot be read is added to the run's notes.
-std::string pictures(RunFolder&, const std::vector<FrameHead>& pictured);
+std::string pictures(Run&, const std::vector<record::FrameHead>& pictured);
 
 /// Those that the run flagged, else at most `most` spread evenly from the first to the last.
-std::vector<FrameHead> frames_to_show(const RunFolder&, std::size_t most = 8);
+std::vector<record::FrameHead> frames_to_show(const Run&, std::size_t most = 8);
 
 /// "opening 0.29 mm", read from the first curve that is drawn against something other than time; else empty.
-std::string loading_at(const RunFolder&, const FrameHead&);
+std::string loading_at(const Run&, const record::FrameHead&);
 
 bool is_ledger(const Curve&);
 /// The row of the table nearest to the frame, by time or else by step.
-std::size_t row_at(const Table&, const FrameHead&);
+std::size_t row_at(const Table&, const record::FrameHead&);
 
 /// `<section id><h2>title</h2>body</section>`, or nothing if the body is empty.
 std::string section(const std::string& title, const std::string& body);

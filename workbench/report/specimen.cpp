@@ -16,18 +16,17 @@ struct Box {
 
 bool finite(const Vec3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
 
-Vec3 at_rest(const Frame& frame, std::size_t i) {
+Vec3 at_rest(const record::Frame& frame, std::size_t i) {
   return frame.displacement.empty() ? frame.position[i] : Vec3(frame.position[i] - frame.displacement[i]);
 }
 
-Vec3 magnified(const Frame& frame, std::size_t i, Real factor) {
+Vec3 magnified(const record::Frame& frame, std::size_t i, Real factor) {
   return frame.displacement.empty() ? frame.position[i]
                                     : Vec3(frame.position[i] + (factor - 1) * frame.displacement[i]);
 }
 
-/// The box around the elements, but for the few that flew away when they ended outside `reach` times the median's box.
 template <class Place>
-Box box_of(const Frame& frame, const Place& place) {
+Box box_of(const record::Frame& frame, const Place& place) {
   Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     const Vec3 p = place(i);
@@ -39,17 +38,17 @@ Box box_of(const Frame& frame, const Place& place) {
   return box;
 }
 
-bool is_interface(const Stage& stage, const FrameBonds& bonds) {
+bool is_interface(const Stage& stage, const record::Bonds& bonds) {
   return std::find(stage.interfaces.begin(), stage.interfaces.end(), bonds.family) != stage.interfaces.end();
 }
 
 /// A family that softens is drawn whole if it is a surface, not the bulk of the specimen.
-std::vector<std::string> find_interfaces(const std::vector<Frame>& shown) {
+std::vector<std::string> find_interfaces(const std::vector<record::Frame>& shown) {
   std::vector<std::string> names;
-  for (const Frame& frame : shown)
-    for (const FrameBonds& bonds : frame.bonds) {
-      const bool softens = bonds.has_damage || bonds.law.find("contact") != std::string::npos ||
-                           std::find(bonds.state.begin(), bonds.state.end(), BondState::softening) != bonds.state.end();
+  for (const record::Frame& frame : shown)
+    for (const record::Bonds& bonds : frame.bonds) {
+      const bool softens = bonds.has_damage || bonds.law.starts_with("cohesive-contact") ||
+                           std::find(bonds.state.begin(), bonds.state.end(), State::softening) != bonds.state.end();
       const bool surface = bonds.ends.size() < frame.position.size();
       if (softens && surface && std::find(names.begin(), names.end(), bonds.family) == names.end())
         names.push_back(bonds.family);
@@ -58,9 +57,9 @@ std::vector<std::string> find_interfaces(const std::vector<Frame>& shown) {
 }
 
 /// Largest of 1, 2, 5, 10, ... with which displacements stay below a twelfth of the specimen's length.
-Real choose_magnification(const std::vector<Frame>& shown, Real length) {
+Real choose_magnification(const std::vector<record::Frame>& shown, Real length) {
   Real largest = 0;
-  for (const Frame& frame : shown) {
+  for (const record::Frame& frame : shown) {
     std::vector<Real> sizes;
     for (const Vec3& u : frame.displacement)
       if (finite(u)) sizes.push_back(u.norm());
@@ -80,11 +79,11 @@ Real choose_magnification(const std::vector<Frame>& shown, Real length) {
 }
 
 /// Mean square of the bonds' directions along x, y, z; zero if there is nothing to look at.
-Vec3 directions(const Stage& stage, const Frame& frame) {
+Vec3 directions(const Stage& stage, const record::Frame& frame) {
   Vec3 sum = Vec3::Zero();
-  for (const FrameBonds& bonds : frame.bonds)
+  for (const record::Bonds& bonds : frame.bonds)
     for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
-      if (!is_interface(stage, bonds) && bonds.state[b] == BondState::elastic) continue;
+      if (!is_interface(stage, bonds) && bonds.state[b] == State::intact) continue;
       const auto [i, j] = bonds.ends[b];
       const Vec3 along = at_rest(frame, static_cast<std::size_t>(j)) - at_rest(frame, static_cast<std::size_t>(i));
       const Real square = along.squaredNorm();
@@ -137,9 +136,9 @@ std::pair<int, int> choose_axes(const Vec3& weak, const Vec3& size) {
   return {fibre, (fibre + 1) % 3};
 }
 
-Box stage_box(const Stage& stage, const Box& rest, const std::vector<Frame>& shown) {
+Box stage_box(const Stage& stage, const Box& rest, const std::vector<record::Frame>& shown) {
   Box all = rest;
-  for (const Frame& frame : shown) {
+  for (const record::Frame& frame : shown) {
     const Box box = box_of(frame, [&](std::size_t i) { return magnified(frame, i, stage.magnification); });
     all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
   }
@@ -164,19 +163,19 @@ void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64
 }
 
 /// The worst state of the bonds at each element.
-std::vector<BondState> worst_states(const Frame& frame) {
-  std::vector<BondState> worst(frame.position.size(), BondState::elastic);
-  for (const FrameBonds& bonds : frame.bonds)
+std::vector<State> worst_states(const record::Frame& frame) {
+  std::vector<State> worst(frame.position.size(), State::intact);
+  for (const record::Bonds& bonds : frame.bonds)
     for (std::size_t b = 0; b < bonds.ends.size(); ++b)
       for (const Index end : bonds.ends[b]) {
-        BondState& state = worst[static_cast<std::size_t>(end)];
+        State& state = worst[static_cast<std::size_t>(end)];
         state = std::max(state, bonds.state[b]);
       }
   return worst;
 }
 
-Color color_of(BondState state) {
-  return state == BondState::broken ? palette::broken : state == BondState::softening ? palette::softening : palette::elastic;
+Color color_of(State state) {
+  return state == State::broken ? palette::broken : state == State::softening ? palette::softening : palette::elastic;
 }
 
 Color base_color(const Stage& stage, std::int64_t id) {
@@ -184,53 +183,63 @@ Color base_color(const Stage& stage, std::int64_t id) {
   return found == stage.element_color.end() ? palette::body : found->second;
 }
 
-Real mean_radius(const Frame& frame) {
+Real mean_radius(const record::Frame& frame) {
   Real sum = 0;
   for (const Real r : frame.radius) sum += r;
   return frame.radius.empty() ? 1 : sum / static_cast<Real>(frame.radius.size());
 }
 
-void draw_bodies(Canvas& canvas, const Stage& stage, const Frame& frame) {
-  const auto worst = worst_states(frame);
-  for (std::size_t i = 0; i < frame.position.size(); ++i) {
-    const Vec3 place = magnified(frame, i, stage.magnification);
-    if (!finite(place) || !(frame.radius[i] > 0)) continue;
-    const Color base = base_color(stage, frame.id[i]);
-    canvas.sphere(place, frame.radius[i],
-                  worst[i] == BondState::elastic ? base : mix(base, color_of(worst[i]), 0.88F));
-  }
-  canvas.darken_hollows(4 * mean_radius(frame));
+/// Elements from front to back, those without a place or a size left out.
+template <class Place>
+std::vector<std::size_t> front_to_back(const record::Frame& frame, const Place& place, const Vec3& toward) {
+  std::vector<std::pair<Real, std::size_t>> order;
+  for (std::size_t i = 0; i < frame.position.size(); ++i)
+    if (finite(place(i)) && frame.radius[i] > 0) order.emplace_back(-place(i).dot(toward), i);
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> rows;
+  for (const auto& [depth, row] : order) rows.push_back(row);
+  return rows;
 }
 
-void draw_bond(Canvas& canvas, const Frame& frame, const std::array<Index, 2>& ends, Color c) {
+void draw_bodies(Canvas& canvas, const Stage& stage, const record::Frame& frame, const Vec3& toward) {
+  const auto worst = worst_states(frame);
+  const auto place = [&](std::size_t i) { return magnified(frame, i, stage.magnification); };
+  for (const std::size_t i : front_to_back(frame, place, toward)) {
+    const Color base = base_color(stage, frame.id[i]);
+    canvas.sphere(place(i), frame.radius[i],
+                  worst[i] == State::intact ? base : mix(base, color_of(worst[i]), 0.88F));
+  }
+  canvas.darken_hollows(4 * mean_radius(frame), 0.42F);
+}
+
+void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Index, 2>& ends, const Vec3& toward, Color c) {
   const auto i = static_cast<std::size_t>(ends[0]), j = static_cast<std::size_t>(ends[1]);
   const Vec3 a = at_rest(frame, i), b = at_rest(frame, j);
-  const Vec3 along = b - a;
-  const Real length = along.norm();
-  if (!finite(a) || !finite(b) || !(length > 0)) return;
-  const Vec3 middle = a + along * (frame.radius[i] / (frame.radius[i] + frame.radius[j]));
-  canvas.disc(middle, along / length, 0.8 * std::min(frame.radius[i], frame.radius[j]), c);
+  const Real smaller = std::min(frame.radius[i], frame.radius[j]);
+  if (!finite(a) || !finite(b) || !(smaller > 0)) return;
+  const Vec3 middle = a + (b - a) * (frame.radius[i] / (frame.radius[i] + frame.radius[j]));
+  canvas.disc(middle, toward, 0.68 * smaller, c);  // facing us: an even field of dots shows a front best
 }
 
-void draw_bonds(Canvas& canvas, const Stage& stage, const Frame& frame) {
-  for (std::size_t i = 0; i < frame.position.size(); ++i)
-    if (finite(at_rest(frame, i)) && frame.radius[i] > 0) canvas.sphere(at_rest(frame, i), frame.radius[i], palette::body);
+void draw_bonds(Canvas& canvas, const Stage& stage, const record::Frame& frame, const Vec3& toward) {
+  const auto place = [&](std::size_t i) { return at_rest(frame, i); };
+  for (const std::size_t i : front_to_back(frame, place, toward)) canvas.sphere(place(i), frame.radius[i], palette::body);
   canvas.darken_hollows(4 * mean_radius(frame));
   canvas.fade(0.38F);
   // Broken over softening over elastic: what went wrong is never hidden by what is sound.
-  for (const BondState state : {BondState::elastic, BondState::softening, BondState::broken}) {
+  for (const State state : {State::intact, State::softening, State::broken}) {
     canvas.flatten();
-    for (const FrameBonds& bonds : frame.bonds) {
-      if (state == BondState::elastic && !is_interface(stage, bonds)) continue;
+    for (const record::Bonds& bonds : frame.bonds) {
+      if (state == State::intact && !is_interface(stage, bonds)) continue;
       for (std::size_t b = 0; b < bonds.ends.size(); ++b)
-        if (bonds.state[b] == state) draw_bond(canvas, frame, bonds.ends[b], color_of(state));
+        if (bonds.state[b] == state) draw_bond(canvas, frame, bonds.ends[b], toward, color_of(state));
     }
   }
 }
 
 }  // namespace
 
-void complete_displacement(Frame& frame, const Frame& first) {
+void complete_displacement(record::Frame& frame, const record::Frame& first) {
   if (!frame.displacement.empty()) return;
   std::unordered_map<std::int64_t, std::size_t> row;
   for (std::size_t i = 0; i < first.id.size(); ++i) row[first.id[i]] = i;
@@ -241,7 +250,7 @@ void complete_displacement(Frame& frame, const Frame& first) {
   }
 }
 
-Stage set_up(const Frame& first, const std::vector<Frame>& shown,
+Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
              const std::map<std::string, std::vector<std::int64_t>>& sets) {
   Stage stage;
   const Box rest = box_of(first, [&](std::size_t i) { return at_rest(first, i); });
@@ -266,22 +275,37 @@ Stage set_up(const Frame& first, const std::vector<Frame>& shown,
   return stage;
 }
 
-Counts counts(const Stage& stage, const Frame& frame) {
+Camera cropped(const Stage& stage, const View& view, const record::Frame& frame) {
+  Camera camera = view.camera;
+  if (view.show == Show::bonds) return camera;
+  const Box box = box_of(frame, [&](std::size_t i) { return magnified(frame, i, stage.magnification); });
+  const Real bottom = camera.centre.dot(camera.up) - 0.5 * camera.height, top = bottom + camera.height;
+  const Real margin = 2 * mean_radius(frame);
+  const Real low = std::max(bottom, box.low.dot(camera.up) - margin);
+  const Real high = std::min(top, box.high.dot(camera.up) + margin);
+  if (!(high > low)) return camera;
+  camera.centre += (0.5 * (low + high) - camera.centre.dot(camera.up)) * camera.up;
+  camera.height = high - low;
+  return camera;
+}
+
+Counts counts(const Stage& stage, const record::Frame& frame) {
   Counts out;
-  for (const FrameBonds& bonds : frame.bonds) {
+  for (const record::Bonds& bonds : frame.bonds) {
     if (!stage.interfaces.empty() && !is_interface(stage, bonds)) continue;
-    for (const BondState state : bonds.state)
-      ++(state == BondState::broken ? out.broken : state == BondState::softening ? out.softening : out.elastic);
+    for (const State state : bonds.state)
+      ++(state == State::broken ? out.broken : state == State::softening ? out.softening : out.elastic);
   }
   return out;
 }
 
-Image draw(const Stage& stage, const View& view, const Frame& frame, int width) {
-  Canvas canvas(view.camera, width);
+Image draw(const Stage& stage, const View& view, const record::Frame& frame, int width) {
+  Canvas canvas(cropped(stage, view, frame), width);
+  const Vec3 toward = view.camera.right.cross(view.camera.up);
   if (view.show == Show::bodies)
-    draw_bodies(canvas, stage, frame);
+    draw_bodies(canvas, stage, frame, toward);
   else
-    draw_bonds(canvas, stage, frame);
+    draw_bonds(canvas, stage, frame, toward);
   return canvas.image();
 }
 

@@ -49,15 +49,18 @@ struct Counts {
 };
 
 /// The stage for frames that show one specimen; `first` is its state of rest.
-Stage set_up(const Frame& first, const std::vector<Frame>& shown,
+Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
              const std::map<std::string, std::vector<std::int64_t>>& sets);
 
 /// Bonds of the interfaces by state; of all families if there is no interface.
-Counts counts(const Stage&, const Frame&);
+Counts counts(const Stage&, const record::Frame&);
 
-Image draw(const Stage&, const View&, const Frame&, int width);
+/// The view's camera, less the height that this frame leaves empty: the scale stays that of the run.
+Camera cropped(const Stage&, const View&, const record::Frame&);
+
+Image draw(const Stage&, const View&, const record::Frame&, int width);
 
 /// Where a frame records positions only: displacements from those of the same elements in the first frame.
-void complete_displacement(Frame&, const Frame& first);
+void complete_displacement(record::Frame&, const record::Frame& first);
 
 }  // namespace beadwork::report

@@ -1,6 +1,8 @@
-#include "workbench/report/run_folder.hpp"
+#include "workbench/report/run.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "core/base/failure.hpp"
 #include "workbench/report/text.hpp"
@@ -52,7 +54,17 @@ void read_references(Curve& curve, const fs::path& folder, std::vector<std::stri
   }
 }
 
-void read_curves(RunFolder& run) {
+/// The sidecar's "order" decides; else the load comes first, and what nobody described comes last.
+double place_of(const Curve& curve) {
+  const auto order = curve.sidecar.find("order");
+  if (order != curve.sidecar.end() && order->is_number()) return order->get<double>();
+  if (curve.sidecar.empty()) return 1000;
+  return std::any_of(curve.table.columns.begin(), curve.table.columns.end(), [](const Column& c) { return c.unit == "N"; })
+             ? 100
+             : 200;
+}
+
+void read_curves(Run& run) {
   const fs::path folder = run.folder / "curves";
   for (const fs::path& file : files_ending(folder, ".csv")) {
     Curve curve;
@@ -67,39 +79,57 @@ void read_curves(RunFolder& run) {
     read_references(curve, folder, run.notes);
     run.curves.push_back(std::move(curve));
   }
-  // What a sidecar describes was meant to be looked at: it comes before the rest.
-  std::stable_partition(run.curves.begin(), run.curves.end(), [](const Curve& c) { return !c.sidecar.empty(); });
+  std::stable_sort(run.curves.begin(), run.curves.end(),
+                   [](const Curve& a, const Curve& b) { return place_of(a) < place_of(b); });
   if (run.curves.empty()) run.notes.push_back("There are no curves: no watcher wrote any, or the run ended before.");
 }
 
-void read_record(RunFolder& run) {
+void read_record(Run& run) {
   const fs::path file = run.folder / "run.h5";
   if (!fs::exists(file)) {
     run.notes.push_back("There is no run.h5, so there are no pictures of the specimen and no log of breaks.");
     return;
   }
   try {
-    run.record = std::make_unique<FrameReader>(file);
+    run.recorded = std::make_unique<record::FrameReader>(file);
   } catch (const std::exception& problem) {
     run.notes.push_back("run.h5 cannot be read, so there are no pictures of the specimen (" +
                         std::string(problem.what()) + ").");
     return;
   }
-  if (const int lost = run.record->unreadable_frames(); lost > 0)
+  if (const int lost = run.recorded->unreadable_frames(); lost > 0)
     run.notes.push_back(plural(lost, "frame") + " of run.h5 cannot be read, and " + (lost == 1 ? "was" : "were") +
                         " left out.");
 }
 
-/// The name is the first `name` of the deck's outermost tag; the deck has been checked when the run wrote it.
+/// A run that was killed has no summary, but its record knows what it was.
+void complete_from_record(Run& run) {
+  if (!run.recorded) return;
+  std::map<std::string, std::string> meta = run.recorded->meta();
+  for (const char* key : {"version", "deck_sha256"})
+    if (!run.summary.contains(key) && !meta[key].empty()) run.summary[key] = meta[key];
+  if (run.scene.empty()) run.scene = meta["name"];
+  if (run.deck.empty()) run.deck = meta["resolved"];
+  if (run.summary.contains("packing")) return;
+  Json packing = Json::parse(meta["packing"], nullptr, false);
+  if (packing.is_structured() && !packing.empty()) run.summary["packing"] = std::move(packing);
+}
+
+/// The first `name` of the deck's outermost tag; the deck has been checked when the run wrote it.
 std::string name_in_deck(const std::string& deck) {
   const auto tag = deck.find("<scene");
   const auto end = deck.find('>', std::min(tag, deck.size()));
   const auto start = deck.find("name=\"", std::min(tag, deck.size()));
   if (start == std::string::npos || start > end) return "";
-  return deck.substr(start + 6, deck.find('"', start + 6) - start - 6);
+  std::string name = deck.substr(start + 6, deck.find('"', start + 6) - start - 6);
+  for (const auto& [entity, character] : std::initializer_list<std::pair<std::string, const char*>>{
+           {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}, {"&amp;", "&"}})
+    for (auto at = name.find(entity); at != std::string::npos; at = name.find(entity, at + 1))
+      name.replace(at, entity.size(), character);
+  return name;
 }
 
-void read_status(RunFolder& run) {
+void read_status(Run& run) {
   run.status = text_of(run.summary, "status");
   if (!run.status.empty() && run.status != "running") return;
   run.status = "unfinished";
@@ -116,13 +146,13 @@ std::string text_of(const Json& json, const std::string& key, const std::string&
   return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-RunFolder open_run(const fs::path& folder) {
+Run open_run(const fs::path& folder) {
   if (!fs::is_directory(folder)) throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
   const auto written = {"summary.json", "resolved.xml", "run.log", "curves", "run.h5"};
   if (std::none_of(written.begin(), written.end(), [&](const char* name) { return fs::exists(folder / name); }))
     throw MachineFailure("'" + folder.string() +
                          "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, curves, run.h5");
-  RunFolder run;
+  Run run;
   run.folder = folder;
   run.summary = read_json(folder / "summary.json", run.notes);
   run.deck = read_text(folder / "resolved.xml");
@@ -130,9 +160,12 @@ RunFolder open_run(const fs::path& folder) {
   read_status(run);
   run.scene = text_of(run.summary, "scene", text_of(run.summary, "name"));
   if (run.scene.empty()) run.scene = name_in_deck(run.deck);
-  if (run.scene.empty()) run.scene = fs::weakly_canonical(folder).filename().string();
   read_curves(run);
   read_record(run);
+  complete_from_record(run);
+  if (run.scene.empty()) run.scene = fs::weakly_canonical(folder).filename().string();
+  if (run.deck.empty()) run.notes.emplace_back("There is no resolved.xml, so the deck is not shown.");
+  if (run.log.empty()) run.notes.emplace_back("There is no run.log, or it is empty.");
   return run;
 }
 

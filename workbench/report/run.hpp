@@ -26,19 +26,19 @@ struct Curve {
   std::vector<Reference> references;
 };
 
-struct RunFolder {
+struct Run {
   std::filesystem::path folder;
   std::string scene;   ///< its name, from the summary, the deck or the folder
   Json summary = Json::object();
   std::string status;  ///< done, failed, interrupted, or "unfinished" where no summary says
   std::string deck, log;
   std::vector<Curve> curves;
-  std::unique_ptr<FrameReader> record;  ///< null if run.h5 is missing or cannot be read
+  std::unique_ptr<record::FrameReader> recorded;  ///< null if run.h5 is missing or cannot be read
   std::vector<std::string> notes;       ///< what is missing, one sentence each
 };
 
 /// Throws MachineFailure if the folder does not exist or holds nothing that a run writes.
-RunFolder open_run(const std::filesystem::path& folder);
+Run open_run(const std::filesystem::path& folder);
 
 /// The value of a key as text, or `otherwise`.
 std::string text_of(const Json&, const std::string& key, const std::string& otherwise = "");

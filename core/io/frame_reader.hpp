@@ -1,0 +1,76 @@
+#pragma once
+// Reads what a run recorded back into plain vectors, for pictures and reports. A simulation never reads its record;
+// so this is liberal: what is not there is left empty.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/domain/field.hpp"
+
+namespace beadwork::record {
+
+struct FrameHead {
+  std::string name;  ///< of the group under /frames
+  Real time = 0;
+  std::int64_t step = 0;
+  bool picture = false;  ///< the watcher asked for a picture of this frame
+};
+
+struct Bonds {
+  std::string family;
+  std::string law;                           ///< attribute "law" of the group, or empty
+  std::vector<std::array<Index, 2>> ends;    ///< rows of the frame's elements
+  std::vector<State> state;                  ///< as long as ends; all intact where the file has none
+  bool has_damage = false;                   ///< the family can soften
+};
+
+struct Frame {
+  FrameHead head;
+  std::vector<std::int64_t> id;
+  std::vector<Vec3> position;
+  std::vector<Real> radius;
+  std::vector<Vec3> displacement;            ///< empty, or as long as position
+  std::vector<Bonds> bonds;
+};
+
+/// Every break of the run, in the order in which they were booked.
+struct Breaks {
+  std::vector<Real> time;
+  std::vector<std::string> family, mode;
+  std::vector<Vec3> place;
+  std::vector<Real> energy;
+};
+
+class FrameReader {
+ public:
+  /// Throws MachineFailure if the file cannot be opened as HDF5.
+  explicit FrameReader(const std::filesystem::path& file);
+  ~FrameReader();
+  FrameReader(const FrameReader&) = delete;
+  FrameReader& operator=(const FrameReader&) = delete;
+
+  const std::vector<FrameHead>& frames() const { return frames_; }  ///< in the order of their steps
+  int unreadable_frames() const { return unreadable_; }             ///< links whose target is missing or damaged
+
+  Frame read(const FrameHead&) const;  ///< throws MachineFailure
+  Breaks breaks() const;               ///< empty where there is none
+
+  /// The texts under /meta by their names: name, resolved, version, packing, ...
+  std::map<std::string, std::string> meta() const;
+  /// Named sets of element ids: /sets/<name>, empty where there are none.
+  std::map<std::string, std::vector<std::int64_t>> sets() const;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+  std::vector<FrameHead> frames_;
+  int unreadable_ = 0;
+};
+
+}  // namespace beadwork::record
