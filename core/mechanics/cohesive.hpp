@@ -42,7 +42,7 @@ template <class T>
 
 /// Recoverable energy per area [J/m^2].
 template <class T>
-T stored(const Softening<T>& law, Same<T> opening, Same<T> history) {
+T stored_per_area(const Softening<T>& law, Same<T> opening, Same<T> history) {
   return T(0.5) * traction(law, opening, history) * opening;
 }
 
@@ -54,7 +54,7 @@ T fracture_energy(const Softening<T>& law) {
 
 /// Energy gone for good per area, (C2) [J/m^2].
 template <class T>
-T dissipated(const Softening<T>& law, Same<T> history) {
+T dissipated_per_area(const Softening<T>& law, Same<T> history) {
   const T share = (min(history, law.open) - law.onset) / (law.open - law.onset);
   return fracture_energy(law) * max(T(0), share);
 }
@@ -226,9 +226,9 @@ T cohesive_stored(const CohesiveLaws<T>& laws, const CohesiveRest<T>& rest, cons
 /// Energy that softening has taken so far [J].
 template <CohesiveModes modes, class T>
 T cohesive_dissipated(const CohesiveLaws<T>& laws, const CohesiveRest<T>& rest, const Openings<T>& history) {
-  const T sliding = dissipated(laws.shear, history.shear);
+  const T sliding = dissipated_per_area(laws.shear, history.shear);
   if constexpr (modes == CohesiveModes::shear) return rest.area * sliding;
-  return rest.area * (dissipated(laws.normal, history.normal) + sliding);
+  return rest.area * (dissipated_per_area(laws.normal, history.normal) + sliding);
 }
 
 /// Energy let go in this step because the other mode failed [J]: still recoverable a step ago, now gone, and

@@ -14,7 +14,7 @@ VelocityTable::VelocityTable(std::vector<Row> rows) : rows_(std::move(rows)), tr
   }
 }
 
-Motion VelocityTable::at(Real t) const {
+PrescribedMotion VelocityTable::at(Real t) const {
   const auto next = std::upper_bound(rows_.begin(), rows_.end(), t,
                                      [](Real time, const Row& row) { return time < row.time; });
   if (next == rows_.begin()) return {(t - rows_[0].time) * rows_[0].velocity, rows_[0].velocity, 0};

@@ -29,7 +29,7 @@ inline Real smooth_step_integral(Real x) {
   return x * x * x * x * (2.5 + x * (-3 + x));
 }
 
-struct Motion {
+struct PrescribedMotion {
   Real displacement, velocity, acceleration;
 };
 
@@ -38,7 +38,7 @@ struct SmoothRamp {
   Real velocity;
   Real rise;
 
-  Motion at(Real t) const {
+  PrescribedMotion at(Real t) const {
     if (t <= 0) return {0, rise > 0 ? 0 : velocity, 0};
     if (!(rise > 0)) return {velocity * t, velocity, 0};
     const Real x = t / rise;
@@ -58,7 +58,7 @@ class VelocityTable {
   explicit VelocityTable(std::vector<Row> rows);
 
   /// Displacement counts from the first row's time; before it, the first velocity runs backwards.
-  Motion at(Real t) const;
+  PrescribedMotion at(Real t) const;
 
  private:
   std::vector<Row> rows_;

@@ -1,0 +1,38 @@
+#pragma once
+// Stiffness of a cohesive beam about a state: the Euler-Bernoulli beam along the present chord.
+//                                                                                     docs/theory/cohesive-beam.md
+
+#include "core/mechanics/beam.hpp"
+#include "core/mechanics/stiffness.hpp"
+
+namespace beadwork {
+
+/// Second derivative of (B1) with small angles, d = x2 - x1 as it is now. `with_tension` adds what a present
+/// axial force N does across the beam, N/l: worth it in a static mover, or where N/l exceeds a hundredth of
+/// k_n.
+inline Matrix12 beam_stiffness(const BeamRest<Real>& rest, const Vec3& d, bool with_tension = false) {
+  const Real l = d.norm();
+  const Vec3 e = d / l;
+  const Mat3 along = e * e.transpose();
+  const Mat3 across = stiffness::across(e);
+
+  // dt_i = across dtheta_i - e x (dx2 - dx1)/l, from (B2)
+  stiffness::Matrix3x12 t1 = stiffness::Matrix3x12::Zero();
+  t1.block<3, 3>(0, 0) = stiffness::skew(e) / l;
+  t1.block<3, 3>(0, 6) = -stiffness::skew(e) / l;
+  stiffness::Matrix3x12 t2 = t1;
+  t1.block<3, 3>(0, 3) = across;
+  t2.block<3, 3>(0, 9) = across;
+
+  const Real tension = with_tension ? rest.axial * (l - rest.length) / l : 0;
+  Matrix12 k = stiffness::between_centres(rest.axial * along + tension * across);
+  const stiffness::Matrix3x12 sum = t1 + t2;
+  k += rest.bending * (t1.transpose() * t1 + t2.transpose() * t2 + sum.transpose() * sum);
+  k.block<3, 3>(3, 3) += rest.torsion * along;
+  k.block<3, 3>(9, 9) += rest.torsion * along;
+  k.block<3, 3>(3, 9) -= rest.torsion * along;
+  k.block<3, 3>(9, 3) -= rest.torsion * along;
+  return k;
+}
+
+}  // namespace beadwork

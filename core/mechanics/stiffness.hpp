@@ -1,0 +1,34 @@
+#pragma once
+// What the stiffness of a bond is made of, rows and columns (x1, theta1, x2, theta2); angles are increments
+// seen from the world. Only for time steps and static movers: none of this runs in the loop over steps.
+
+#include "core/mechanics/lane.hpp"
+
+namespace beadwork {
+
+using Matrix12 = Eigen::Matrix<Real, 12, 12>;
+
+namespace stiffness {
+
+using Matrix3x12 = Eigen::Matrix<Real, 3, 12>;
+
+/// The vector d x a as a matrix times a.
+inline Mat3 skew(const Vec3& d) {
+  Mat3 m;
+  m << 0, -d[2], d[1], d[2], 0, -d[0], -d[1], d[0], 0;
+  return m;
+}
+
+/// 1 - n n.
+inline Mat3 across(const Vec3& n) { return Mat3::Identity() - n * n.transpose(); }
+
+/// The same 3 x 3 stiffness between the two centres, no rotations.
+inline Matrix12 between_centres(const Mat3& k) {
+  Matrix12 block = Matrix12::Zero();
+  block.block<3, 3>(0, 0) = block.block<3, 3>(6, 6) = k;
+  block.block<3, 3>(0, 6) = block.block<3, 3>(6, 0) = -k;
+  return block;
+}
+
+}  // namespace stiffness
+}  // namespace beadwork
