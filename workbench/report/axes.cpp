@@ -21,6 +21,7 @@ Range range_of(const std::vector<double>& values) {
 Range united(const Range& a, const Range& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
 Range padded(Range range) {
+  if (range.low < 0 && -range.low < 0.03 * range.high) range.low = 0;  // noise about zero
   if (range.low > 0 && range.low < 0.5 * range.high) range.low = 0;
   if (range.high < 0 && range.high > 0.5 * range.low) range.high = 0;
   double room = 0.05 * range.span();

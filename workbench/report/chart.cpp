@@ -168,7 +168,7 @@ Axes axes_of(const Chart& chart) {
     for (std::size_t i = 0; i < s.y.size(); ++i) total[i] += std::isfinite(s.y[i]) ? s.y[i] : 0;
   }
   range = united(range, padded(range_of(total)));
-  axes.y = {std::min(0.0, range.low), range.high};
+  axes.y = {range.low > -0.03 * range.high ? 0 : range.low, range.high};
   return axes;
 }
 

@@ -19,6 +19,7 @@ namespace {
 std::string title_of(const std::string& key) {
   static const std::map<std::string, std::string> known = {{"wall_seconds", "wall time"},
                                                            {"loop_seconds", "time in the loop"},
+                                                           {"seconds", "time"},
                                                            {"deck_sha256", "SHA-256 of the deck"},
                                                            {"bond_updates_per_second", "bond updates"}};
   const auto found = known.find(key);
@@ -91,7 +92,7 @@ std::string breaks_over_time(const record::Breaks& log) {
   chart.y_label = "bonds broken so far";
   for (auto& [mode, when] : times) {
     std::sort(when.begin(), when.end());
-    Series series{spaced(mode), {}, {}, static_cast<int>(chart.series.size() + 5) % 8};
+    Series series{spaced(mode), {0}, {0}, static_cast<int>(chart.series.size() + 5) % 8};
     for (std::size_t i = 0; i < when.size(); ++i) {
       series.x.push_back(when[i] * scale.factor);
       series.y.push_back(static_cast<double>(i + 1));
@@ -145,7 +146,9 @@ std::string facts(const Run& run) {
   }
   std::string out = tiles.empty() ? "" : "<dl class=\"tiles\">" + tiles + "</dl>";
   const std::string more = facts_table(rest);
-  if (!more.empty()) out += "<details class=\"quiet\"><summary>All facts of the run</summary>" + more + "</details>";
+  if (out.empty())
+    out = more;
+  else if (!more.empty()) out += "<details class=\"quiet\"><summary>All facts of the run</summary>" + more + "</details>";
   return out.empty() ? "" : "<section>" + out + "</section>\n";
 }
 
@@ -168,7 +171,8 @@ std::string breaks(const Run& run) {
   double energy = 0;
   for (const double e : log.energy) energy += e;
   std::string words = "<p>" + plural(static_cast<std::int64_t>(log.time.size()), "bond") + " broke";
-  if (energy > 0) words += ", releasing " + number(energy) + " J";
+  const Scale scale = readable("J", energy);
+  if (energy > 0) words += ", releasing " + number(energy * scale.factor) + " " + scale.unit;
   return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log) + "<div>" + table + words + ".</p></div></div>");
 }
 

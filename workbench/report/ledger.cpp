@@ -97,8 +97,9 @@ std::string chart_of(const Curve& curve, const Account& account) {
 }
 
 std::string row_of(const std::string& name, const char* kind, double value, double whole) {
-  return fmt::format("<tr class=\"{}\"><th>{}</th><td>{} J</td><td>{}</td></tr>", kind, escaped(name), number(value),
-                     whole > 0 ? percent(value / whole) : "");
+  const Scale scale = readable("J", whole);
+  return fmt::format("<tr class=\"{}\"><th>{}</th><td>{} {}</td><td>{}</td></tr>", kind, escaped(name),
+                     number(value * scale.factor), scale.unit, whole > 0 ? percent(value / whole) : "");
 }
 
 std::string table_of(const Curve& curve, const Account& account) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "workbench/report/sections.hpp"
@@ -14,10 +15,6 @@ namespace beadwork::report {
 namespace {
 
 constexpr int widest = 1120, tallest = 460;  ///< pixels
-
-int width_in_pixels(const Camera& camera) {
-  return std::max(1, std::min(widest, static_cast<int>(std::lround(tallest * camera.width / camera.height))));
-}
 
 std::string css(Color c) {
   return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255), std::lround(c.blue * 255));
@@ -43,7 +40,7 @@ std::string scale_bar(const Camera& camera) {
 std::string picture(const Stage& stage, const View& view, const record::Frame& frame, const std::string& name) {
   // Views of one width share the bar under the last of them.
   const bool last = &view == &stage.views.back() || stage.views.back().camera.width != view.camera.width;
-  const Image image = draw(stage, view, frame, width_in_pixels(view.camera));
+  const Image image = draw(stage, view, frame, width_in_pixels(stage, view, widest, tallest));
   const auto bytes = png(image);
   return fmt::format("<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">{}</div>",
                      base64(bytes.data(), bytes.size()), image.width, image.height, escaped(name + ", " + view.name),
@@ -67,7 +64,11 @@ std::string figure_of(const Run& run, const Stage& stage, const record::Frame& f
   std::string out = fmt::format(
       "<figure class=\"frame\"><figcaption><span class=\"no\">{}</span><b>{}</b> <span class=\"when\">{}</span>{}</figcaption>",
       place, escaped(loading.empty() ? when : loading), loading.empty() ? "" : escaped(when), states_of(counts(stage, frame)));
-  for (const View& view : stage.views) out += picture(stage, view, frame, run.scene + ", " + when);
+  const Counts n = counts(stage, frame);
+  for (const View& view : stage.views) {
+    const bool nothing_yet = view.show == Show::bonds && stage.interfaces.empty() && n.softening + n.broken == 0;
+    if (!nothing_yet) out += picture(stage, view, frame, run.scene + ", " + when);
+  }
   return out + "</figure>\n";
 }
 
@@ -101,17 +102,15 @@ std::vector<record::Frame> read_frames(Run& run, const std::vector<record::Frame
 
 }  // namespace
 
-std::vector<record::FrameHead> frames_to_show(const Run& run, std::size_t most) {
-  if (!run.recorded) return {};
-  const std::vector<record::FrameHead>& all = run.recorded->frames();
+std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all, std::size_t most) {
   std::vector<record::FrameHead> flagged;
   std::copy_if(all.begin(), all.end(), std::back_inserter(flagged), [](const record::FrameHead& h) { return h.picture; });
   const std::vector<record::FrameHead>& from = flagged.empty() ? all : flagged;
   if (from.size() <= most) return from;
-  std::vector<record::FrameHead> chosen;
+  std::vector<record::FrameHead> some;
   for (std::size_t k = 0; k < most; ++k)
-    chosen.push_back(from[most == 1 ? from.size() - 1 : k * (from.size() - 1) / (most - 1)]);
-  return chosen;
+    some.push_back(from[most == 1 ? from.size() - 1 : k * (from.size() - 1) / (most - 1)]);
+  return some;
 }
 
 std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {

@@ -1,8 +1,6 @@
 #include "workbench/report/report.hpp"
 
-#include <fstream>
-
-#include "core/base/failure.hpp"
+#include "core/io/file.hpp"
 #include "workbench/report/page_style.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -50,34 +48,17 @@ std::string filled(std::string_view page, const std::string& title, const std::s
   return out;
 }
 
-/// Beside and then renamed, so that an older report stays whole until the new one is.
-void write(const fs::path& file, const std::string& text) {
-  const fs::path beside = file.string() + ".part";
-  {
-    std::ofstream out(beside, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) {
-      std::error_code ignored;
-      fs::remove(beside, ignored);
-      throw MachineFailure("cannot write '" + file.string() + "': is the folder writable, and is there room?");
-    }
-  }
-  std::error_code problem;
-  fs::rename(beside, file, problem);
-  if (problem) throw MachineFailure("cannot write '" + file.string() + "': " + problem.message());
-}
-
 }  // namespace
 
 std::string write_report(const fs::path& run_folder) {
   Run run = open_run(run_folder);
-  const std::vector<record::FrameHead> shown = frames_to_show(run);
+  const std::vector<record::FrameHead> shown = 
+      run.recorded ? chosen(run.recorded->frames()) : std::vector<record::FrameHead>{};
   const std::string seen = pictures(run, shown);  // first: it may add notes
   std::string body = facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
   body = notes(run) + body;
   const fs::path file = run_folder / "report.html";
-  write(file, filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body));
+  write_atomically(file, filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body));
   return file.string();
 }
 

@@ -18,8 +18,8 @@ std::string deck_and_log(const Run&);
 /// Pictures of the frames `pictured`; what cannot be read is added to the run's notes.
 std::string pictures(Run&, const std::vector<record::FrameHead>& pictured);
 
-/// Those that the run flagged, else at most `most` spread evenly from the first to the last.
-std::vector<record::FrameHead> frames_to_show(const Run&, std::size_t most = 8);
+/// Those that the run flagged, else all; of these at most `most`, spread evenly from the first to the last.
+std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all, std::size_t most = 8);
 
 /// "opening 0.29 mm", read from the first curve that is drawn against something other than time; else empty.
 std::string loading_at(const Run&, const record::FrameHead&);

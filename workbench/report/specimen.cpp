@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace beadwork::report {
@@ -78,12 +79,13 @@ Real choose_magnification(const std::vector<record::Frame>& shown, Real length) 
   return factor;
 }
 
-/// Mean square of the bonds' directions along x, y, z; zero if there is nothing to look at.
+/// Mean square of the directions along x, y, z of the interface's bonds, or else of the bonds that are not sound;
+/// zero if there is nothing to look at.
 Vec3 directions(const Stage& stage, const record::Frame& frame) {
   Vec3 sum = Vec3::Zero();
   for (const record::Bonds& bonds : frame.bonds)
     for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
-      if (!is_interface(stage, bonds) && bonds.state[b] == State::intact) continue;
+      if (stage.interfaces.empty() ? bonds.state[b] == State::intact : !is_interface(stage, bonds)) continue;
       const auto [i, j] = bonds.ends[b];
       const Vec3 along = at_rest(frame, static_cast<std::size_t>(j)) - at_rest(frame, static_cast<std::size_t>(i));
       const Real square = along.squaredNorm();
@@ -125,15 +127,19 @@ int smallest_axis(const Vec3& v) { return largest_axis(-v); }
 ///
 /// A plane of weak bonds (an interface, a crack) is seen from its edge and from above, its longest side to the right.
 /// Around a fibre the bonds have no direction along it: look down the fibre. Otherwise the broadest face is shown.
-std::pair<int, int> choose_axes(const Vec3& weak, const Vec3& size) {
-  if (weak.isZero()) return {smallest_axis(size), -1};
-  const int normal = largest_axis(weak);
-  if (weak[normal] > 0.5) {
+struct Choice {
+  int bodies, bonds;
+  const char* name;
+};
+Choice choose_axes(const Vec3& weak, const Vec3& size) {
+  if (weak.isZero()) return {smallest_axis(size), -1, "the specimen"};
+  const int normal = largest_axis(weak), least = smallest_axis(weak);
+  const Real middle = weak.sum() - weak[normal] - weak[least];
+  if (weak[normal] - middle > middle - weak[least]) {
     const int a = (normal + 1) % 3, b = (normal + 2) % 3;
-    return {size[a] < size[b] ? a : b, normal};
+    return {size[a] < size[b] ? a : b, normal, "side view"};
   }
-  const int fibre = smallest_axis(weak);
-  return {fibre, (fibre + 1) % 3};
+  return {least, (least + 1) % 3, "face view"};
 }
 
 Box stage_box(const Stage& stage, const Box& rest, const std::vector<record::Frame>& shown) {
@@ -153,7 +159,8 @@ void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64
   for (const auto& set : sets)
     if (!set.second.empty()) by_size.push_back(&set);
   std::stable_sort(by_size.begin(), by_size.end(), [](auto* a, auto* b) { return a->second.size() > b->second.size(); });
-  std::size_t next = 0;
+  // The first colour is almost the body's: for a set that makes up most of it.
+  std::size_t next = !by_size.empty() && 2 * by_size.front()->second.size() < elements ? 1 : 0;
   for (const auto* set : by_size) {
     if (set->second.size() == elements && by_size.size() > 1) continue;  // everything: says nothing
     const Color c = palette::sets[next++ % std::size(palette::sets)];
@@ -162,14 +169,15 @@ void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64
   }
 }
 
-/// The worst state of the bonds at each element.
+/// The worst state of the bonds at each element. One bond does not speak for an element much larger than its other.
 std::vector<State> worst_states(const record::Frame& frame) {
   std::vector<State> worst(frame.position.size(), State::intact);
   for (const record::Bonds& bonds : frame.bonds)
     for (std::size_t b = 0; b < bonds.ends.size(); ++b)
-      for (const Index end : bonds.ends[b]) {
-        State& state = worst[static_cast<std::size_t>(end)];
-        state = std::max(state, bonds.state[b]);
+      for (const int side : {0, 1}) {
+        const auto here = static_cast<std::size_t>(bonds.ends[b][static_cast<std::size_t>(side)]);
+        const auto there = static_cast<std::size_t>(bonds.ends[b][static_cast<std::size_t>(1 - side)]);
+        if (frame.radius[here] < 2.5 * frame.radius[there]) worst[here] = std::max(worst[here], bonds.state[b]);
       }
   return worst;
 }
@@ -259,9 +267,9 @@ Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown
   stage.interfaces = find_interfaces(shown);
   color_sets(stage, sets, first.position.size());
   const Vec3 weak = shown.empty() ? Vec3(Vec3::Zero()) : directions(stage, shown.back());
-  const auto [bodies, bonds] = choose_axes(weak, rest.size());
+  const auto [bodies, bonds, name] = choose_axes(weak, rest.size());
   const Box around = stage_box(stage, rest, shown);
-  stage.views.push_back(view_along(Show::bodies, bonds < 0 ? "the specimen" : "side view", bodies, around, margin));
+  stage.views.push_back(view_along(Show::bodies, name, bodies, around, margin));
   if (bonds >= 0) {
     View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface", bonds, rest, margin);
     // One scale above the other where both have the same axis to the right, so that fronts stand in line.
@@ -287,6 +295,13 @@ Camera cropped(const Stage& stage, const View& view, const record::Frame& frame)
   camera.centre += (0.5 * (low + high) - camera.centre.dot(camera.up)) * camera.up;
   camera.height = high - low;
   return camera;
+}
+
+int width_in_pixels(const Stage& stage, const View& wanted, int widest, int tallest) {
+  Real scale = std::numeric_limits<Real>::max();
+  for (const View& view : stage.views)
+    scale = std::min({scale, widest / view.camera.width, tallest / view.camera.height});
+  return std::max(1, static_cast<int>(std::lround(scale * wanted.camera.width)));
 }
 
 Counts counts(const Stage& stage, const record::Frame& frame) {

@@ -60,6 +60,9 @@ Camera cropped(const Stage&, const View&, const record::Frame&);
 
 Image draw(const Stage&, const View&, const record::Frame&, int width);
 
+/// Pixels for the view when the largest view of the stage is to fit into the given room: all have one scale.
+int width_in_pixels(const Stage&, const View&, int widest, int tallest);
+
 /// Where a frame records positions only: displacements from those of the same elements in the first frame.
 void complete_displacement(record::Frame&, const record::Frame& first);
 

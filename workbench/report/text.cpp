@@ -51,9 +51,9 @@ std::string escaped(std::string_view text) {
 
 std::string number(double value, int significant) {
   if (!std::isfinite(value)) return "–";
+  if (value < 0) return "−" + number(-value, significant);
   if (value == 0) return "0";
-  const double size = std::abs(value);
-  if (size >= 1e7 || size < 1e-3) {
+  if (value >= 1e7 || value < 1e-3) {
     const std::string text = fmt::format("{:.{}e}", value, significant - 1);
     const std::size_t e = text.find('e');
     std::string mantissa = text.substr(0, e);
@@ -61,7 +61,7 @@ std::string number(double value, int significant) {
     if (mantissa.ends_with('.')) mantissa.pop_back();
     return mantissa + " × 10" + superscript(std::stoi(text.substr(e + 1)));
   }
-  const int decimals = std::max(0, significant - 1 - static_cast<int>(std::floor(std::log10(size))));
+  const int decimals = std::max(0, significant - 1 - static_cast<int>(std::floor(std::log10(value))));
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);
@@ -82,7 +82,7 @@ std::string duration(double seconds) {
 
 std::string percent(double share) {
   if (!std::isfinite(share)) return "–";
-  return fmt::format("{:.{}f} %", 100 * share, std::abs(share) < 0.1 ? 2 : 1);
+  return fmt::format("{}{:.{}f} %", share < 0 ? "−" : "", 100 * std::abs(share), std::abs(share) < 0.1 ? 2 : 1);
 }
 
 std::string plural(std::int64_t n, const std::string& one) { return count(n) + " " + one + (n == 1 ? "" : "s"); }
