@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 
 namespace beadwork::h5 {
@@ -182,7 +183,9 @@ void check(herr_t status, const std::string& doing) {
 MemoryFile::MemoryFile() {
   const Handle access = take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file in memory");
   check(H5Pset_fapl_core(access.id(), growth, false), "make a file in memory");
-  file_ = take(H5Fcreate("in memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file in memory");
+  static std::atomic<int> count{0};  // HDF5 tells files in memory apart by their names alone
+  const std::string name = fmt::format("in memory {}", count++);
+  file_ = take(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file in memory");
 }
 
 std::span<const std::byte> MemoryFile::image() const {
@@ -334,6 +337,14 @@ void read_column(hid_t place, Column& column, Index rows) {
     case Type::state: return fill_column<std::uint8_t>(place, column, rows, H5T_NATIVE_UINT8);
     default: return fill_column<Real>(place, column, rows, H5T_NATIVE_DOUBLE);
   }
+}
+
+Label label_of(hid_t place, const std::string& name) {
+  const Handle dataset = open_dataset(place, name);
+  const auto text = [&](const char* attribute) {
+    return H5Aexists(dataset.id(), attribute) > 0 ? text_attribute(dataset.id(), attribute) : std::string();
+  };
+  return {text("unit"), text("long_name")};
 }
 
 Shape shape_of(hid_t place, const std::string& name) {

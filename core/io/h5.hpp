@@ -81,6 +81,9 @@ Field read_field(hid_t place, const std::string& name, On on);
 /// Fills the first `rows` rows of the column from the dataset of its name.
 void read_column(hid_t place, Column& column, Index rows);
 
+/// Unit and long_name of a dataset, empty where it has none.
+Label label_of(hid_t place, const std::string& name);
+
 /// Shape and kind of a dataset.
 struct Shape {
   std::vector<hsize_t> extent;

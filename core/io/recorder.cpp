@@ -10,7 +10,6 @@
 
 #include "core/io/frame_file.hpp"
 #include "core/io/h5.hpp"
-#include "core/io/xdmf.hpp"
 
 namespace beadwork {
 
@@ -204,7 +203,7 @@ void Recorder::take_up_file(const std::string& file, std::int64_t step) {
       if (at > step)
         later = true;
       else
-        frames_[at] = {"frames/" + file, group_name, xdmf_frame(describe_frame(group.id(), "/frames/" + name_of(at)), "run.h5")};
+        frames_[at] = {"frames/" + file, group_name, xdmf_parts(describe_frame(group.id(), "/frames/" + name_of(at)), "run.h5")};
     };
     if (is_one_file(full))
       for (const std::string& name : h5::names_in(h5::open_group(in.id(), "frames").id())) take("/frames/" + name);
@@ -229,7 +228,7 @@ void Recorder::write(const FrameStamp& stamp, const FrameRequest& request, const
   fs::create_directories(frames_folder_, error);
   if (error) throw file_failure("make folder", frames_folder_, error.value());
   write_atomically(frames_folder_ / (name + ".h5"), {out.image()});
-  frames_[stamp.step] = {"frames/" + name + ".h5", "/", xdmf_frame(describe_frame(out.id(), "/frames/" + name), "run.h5")};
+  frames_[stamp.step] = {"frames/" + name + ".h5", "/", xdmf_parts(describe_frame(out.id(), "/frames/" + name), "run.h5")};
   write_master(domain);
   write_view();
 }
@@ -262,9 +261,10 @@ void Recorder::write_view() const {
     fs::remove(view_, error);
     return;
   }
-  std::vector<std::string_view> parts;
-  for (const auto& [step, source] : frames_) parts.push_back(source.view);
-  write_atomically(view_, xdmf_document(meta_.name, parts));
+  std::vector<const XdmfPart*> parts;
+  for (const auto& [step, source] : frames_)
+    for (const XdmfPart& part : source.view) parts.push_back(&part);
+  write_atomically(view_, xdmf_document(parts));
 }
 
 void Recorder::write_one_file(const path& part, const Domain& domain) const {

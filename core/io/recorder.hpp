@@ -10,6 +10,7 @@
 
 #include "core/domain/domain.hpp"
 #include "core/io/run_folder.hpp"
+#include "core/io/xdmf.hpp"
 
 namespace beadwork {
 
@@ -67,9 +68,9 @@ class Recorder {
 
  private:
   struct Source {
-    std::string file;   ///< relative to the folder
-    std::string group;  ///< inside that file
-    std::string view;   ///< the frame's part of run.xmf
+    std::string file;            ///< relative to the folder
+    std::string group;           ///< inside that file
+    std::vector<XdmfPart> view;  ///< the frame's part of run.xmf
   };
 
   Recorder(const RunFolder& folder, RunMeta meta, Options options);

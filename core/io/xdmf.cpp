@@ -45,54 +45,61 @@ std::string attributes(const XdmfGrid& grid, std::string_view skip, const char* 
   std::string out;
   for (const XdmfArray& a : grid.arrays)
     if (a.name != skip)
-      out += fmt::format("     <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", escaped(a.name),
+      out += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", escaped(a.name),
                          attribute_type(a.width), center, data_item(grid, a, file));
   return out;
 }
 
 std::string geometry(const XdmfGrid& elements, std::string_view file) {
-  return fmt::format("     <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+  return fmt::format("    <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
                      data_item(elements, array(elements, "position"), file));
 }
 
-std::string points(const XdmfGrid& elements, std::string_view file) {
-  return fmt::format(
-      "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
-      "     <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n{}{}    </Grid>\n",
-      escaped(elements.name), array(elements, "position").rows, geometry(elements, file),
-      attributes(elements, "position", "Node", file));
+std::string uniform(Real time, const std::string& name, const std::string& content) {
+  return fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n{}   </Grid>\n", escaped(name), time,
+                     content);
+}
+
+XdmfPart points(Real time, const XdmfGrid& elements, std::string_view file) {
+  const std::string topology =
+      fmt::format("    <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n",
+                  array(elements, "position").rows);
+  const std::string content = topology + geometry(elements, file) + attributes(elements, "position", "Node", file);
+  return {elements.name, uniform(time, elements.name, content)};
 }
 
 // Lines name their ends by row, so they share the elements' centres.
-std::string lines(const XdmfGrid& bonds, const XdmfGrid& elements, std::string_view file) {
+XdmfPart lines(Real time, const XdmfGrid& bonds, const XdmfGrid& elements, std::string_view file) {
   const XdmfArray& ends = array(bonds, "ends");
-  return fmt::format(
-      "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
-      "     <Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>\n{}{}    </Grid>\n",
-      escaped(bonds.name), ends.rows, data_item(bonds, ends, file), geometry(elements, file),
-      attributes(bonds, "ends", "Cell", file));
+  const std::string topology = fmt::format(
+      "    <Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>\n", ends.rows,
+      data_item(bonds, ends, file));
+  const std::string content = topology + geometry(elements, file) + attributes(bonds, "ends", "Cell", file);
+  return {bonds.name, uniform(time, bonds.name, content)};
 }
 
 }  // namespace
 
-std::string xdmf_frame(const XdmfFrame& frame, std::string_view file) {
-  std::string out = fmt::format("   <Grid Name=\"frame\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
-                                "    <Time Value=\"{}\"/>\n",
-                                frame.time);
-  out += points(frame.elements, file);
+std::vector<XdmfPart> xdmf_parts(const XdmfFrame& frame, std::string_view file) {
+  std::vector<XdmfPart> parts;
+  if (array(frame.elements, "position").rows > 0) parts.push_back(points(frame.time, frame.elements, file));
   for (const XdmfGrid& family : frame.bonds)
-    if (array(family, "ends").rows > 0) out += lines(family, frame.elements, file);
-  return out + "   </Grid>\n";
+    if (array(family, "ends").rows > 0) parts.push_back(lines(frame.time, family, frame.elements, file));
+  return parts;
 }
 
-std::string xdmf_document(std::string_view name, const std::vector<std::string_view>& frames) {
-  std::string out = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
-      "<Xdmf Version=\"2.0\">\n <Domain>\n"
-      "  <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
-      escaped(name));
-  for (const std::string_view frame : frames) out += frame;
-  return out + "  </Grid>\n </Domain>\n</Xdmf>\n";
+std::string xdmf_document(const std::vector<const XdmfPart*>& parts) {
+  std::vector<std::string> grids;
+  for (const XdmfPart* part : parts)
+    if (std::find(grids.begin(), grids.end(), part->grid) == grids.end()) grids.push_back(part->grid);
+  std::string out = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"2.0\">\n <Domain>\n";
+  for (const std::string& grid : grids) {
+    out += fmt::format("  <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", escaped(grid));
+    for (const XdmfPart* part : parts)
+      if (part->grid == grid) out += part->text;
+    out += "  </Grid>\n";
+  }
+  return out + " </Domain>\n</Xdmf>\n";
 }
 
 }  // namespace beadwork

@@ -32,9 +32,16 @@ struct XdmfFrame {
   std::vector<XdmfGrid> bonds; ///< each has an array "ends"
 };
 
-/// The part of the file that stands for one frame; `file` is the HDF5 file beside it.
-std::string xdmf_frame(const XdmfFrame& frame, std::string_view file);
-/// The whole file, from the parts of its frames in the order of time.
-std::string xdmf_document(std::string_view name, const std::vector<std::string_view>& frames);
+/// One grid at one time, as text.
+struct XdmfPart {
+  std::string grid;
+  std::string text;
+};
+
+/// The parts of the file that stand for one frame; `file` is the HDF5 file beside it.
+std::vector<XdmfPart> xdmf_parts(const XdmfFrame& frame, std::string_view file);
+/// The whole file, from the parts of all frames in the order of time. Each grid is a series of its own, since ParaView
+/// keeps the names of blocks only so: the user picks "elements" or "bonds resin" and follows it through time.
+std::string xdmf_document(const std::vector<const XdmfPart*>& parts);
 
 }  // namespace beadwork
