@@ -5,6 +5,7 @@
 // them.
 
 #include <cmath>
+#include <concepts>
 #include <type_traits>
 
 #include "core/base/types.hpp"
@@ -43,13 +44,17 @@ template <class T>
   return {-a[0], -a[1], -a[2]};
 }
 
-template <class T>
-[[gnu::always_inline]] inline Vec<T> operator*(const Same<T>& s, const Vec<T>& a) {
+template <class S, class T>
+requires std::convertible_to<S, T>
+[[gnu::always_inline]] inline Vec<T> operator*(const S& scale, const Vec<T>& a) {
+  const T s(scale);
   return {s * a[0], s * a[1], s * a[2]};
 }
 
-template <class T>
-[[gnu::always_inline]] inline Vec<T> operator*(const Vec<T>& a, const Same<T>& s) {
+template <class S, class T>
+requires std::convertible_to<S, T>
+[[gnu::always_inline]] inline Vec<T> operator*(const Vec<T>& a, const S& scale) {
+  const T s(scale);
   return {a[0] * s, a[1] * s, a[2] * s};
 }
 
