@@ -90,8 +90,8 @@ void Canvas::put(int x, int y, float depth, Color c) {
 template <class Paint>
 void Canvas::for_box(float x0, float x1, float y0, float y1, const Paint& paint) {
   if (!(x1 >= 0 && y1 >= 0 && x0 <= static_cast<float>(width_) && y0 <= static_cast<float>(height_))) return;
-  const int first_x = std::max(0, static_cast<int>(std::floor(x0)));
-  const int first_y = std::max(0, static_cast<int>(std::floor(y0)));
+  const int first_x = static_cast<int>(std::max(0.0F, x0));
+  const int first_y = static_cast<int>(std::max(0.0F, y0));
   const int last_x = static_cast<int>(std::min(static_cast<float>(width_ - 1), x1));
   const int last_y = static_cast<int>(std::min(static_cast<float>(height_ - 1), y1));
   for (int y = first_y; y <= last_y; ++y)

@@ -8,7 +8,8 @@
 #include "workbench/report/sections.hpp"
 #include "workbench/report/specimen.hpp"
 
-namespace beadwork::report {
+namespace beadwork {
+namespace report {
 
 namespace {
 
@@ -33,8 +34,10 @@ Image stacked(const std::vector<Image>& images, int gap) {
 }
 
 }  // namespace
+}  // namespace report
 
 void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file, std::size_t frames) {
+  using namespace report;
   const record::FrameReader reader(run_folder / "run.h5");
   const auto heads = chosen(reader.frames(), frames);
   if (heads.empty()) throw MachineFailure("'" + (run_folder / "run.h5").string() + "' holds no frames to draw");
@@ -53,4 +56,4 @@ void write_picture(const std::filesystem::path& run_folder, const std::filesyste
   write_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-}  // namespace beadwork::report
+}  // namespace beadwork

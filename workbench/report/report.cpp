@@ -5,11 +5,10 @@
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
 
-namespace beadwork::report {
+namespace beadwork {
+namespace report {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The class decides the badge's colour; a status that nobody foresaw is shown as it is, in grey.
 std::string badge(const std::string& status) {
@@ -48,18 +47,23 @@ std::string filled(std::string_view page, const std::string& title, const std::s
   return out;
 }
 
-}  // namespace
-
-std::string write_report(const fs::path& run_folder) {
-  Run run = open_run(run_folder);
+std::string page_of(Run& run) {
   const std::vector<record::FrameHead> shown = 
       run.recorded ? chosen(run.recorded->frames()) : std::vector<record::FrameHead>{};
   const std::string seen = pictures(run, shown);  // first: it may add notes
   std::string body = facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
   body = notes(run) + body;
-  const fs::path file = run_folder / "report.html";
-  write_atomically(file, filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body));
+  return filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body);
+}
+
+}  // namespace
+}  // namespace report
+
+std::string write_report(const std::filesystem::path& run_folder) {
+  report::Run run = report::open_run(run_folder);
+  const std::filesystem::path file = run_folder / "report.html";
+  write_atomically(file, report::page_of(run));
   return file.string();
 }
 
-}  // namespace beadwork::report
+}  // namespace beadwork

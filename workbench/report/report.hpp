@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace beadwork::report {
+namespace beadwork {
 
 /// Writes report.html into the folder and returns its path. Works on runs that are done, failed, interrupted or were
 /// killed; what is missing is said in the report. Throws MachineFailure if there is no run or the file cannot be written.
@@ -15,4 +15,4 @@ std::string write_report(const std::filesystem::path& run_folder);
 /// with frames; throws MachineFailure otherwise.
 void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file, std::size_t frames = 3);
 
-}  // namespace beadwork::report
+}  // namespace beadwork

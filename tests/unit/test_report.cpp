@@ -1,0 +1,275 @@
+// The report of a run: shows what is there, says what is not, and lets no text of a deck become markup.
+#include "workbench/report/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+#include "core/base/failure.hpp"
+#include "core/domain/vocabulary.hpp"
+#include "core/io/recorder.hpp"
+#include "workbench/report/axes.hpp"
+#include "workbench/report/chart.hpp"
+#include "workbench/report/table.hpp"
+#include "workbench/report/text.hpp"
+
+namespace beadwork {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+std::string read(const fs::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file).rdbuf();
+  return out.str();
+}
+
+/// Two layers of six elements, a cohesive interface between them, one bond of which has broken and one softens.
+void make_specimen(Domain& domain) {
+  domain.add_elements(12);
+  const auto position = domain.elements().column("position").view<Vec3>();
+  const auto radius = domain.elements().column("radius").view<Real>();
+  for (Index i = 0; i < 12; ++i) {
+    position.set(i, Vec3(i % 6 * 1e-3, 0, i < 6 ? 0 : 1e-3));
+    radius[i] = 0.5e-3;
+  }
+  domain.sets()["lower"] = {0, 1, 2, 3, 4, 5};
+  BondTable& interface = domain.add_family("interface");
+  interface.create({{0, 6}, {1, 7}, {2, 8}, {3, 9}, {4, 10}, {5, 11}}, 0);
+}
+
+void record_frames(const fs::path& folder, Domain& domain) {
+  const RunFolder run = RunFolder::fresh(folder, false);
+  RunMeta meta;
+  meta.name = "in the record";
+  Recorder recorder = Recorder::fresh(run, meta, {}, domain);
+  BondTable& interface = *domain.find_family("interface");
+  FrameRequest request;
+  request.bonds.push_back({&interface, "cohesive-contact", {}});
+  recorder.write({0, 0, 0}, request, domain);
+  interface.state()[0] = State::broken;
+  interface.state()[1] = State::softening;
+  domain.breaks().breaks.push_back({5e-4, 50, 0, 0, domain.breaks().mode("normal"), Vec3(0, 0, 5e-4), 1e-3});
+  recorder.write({100, 1e-3, 0}, request, domain);
+}
+
+class Report : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = fs::temp_directory_path() / ("beadwork-report-" + std::to_string(getpid()));
+    fs::remove_all(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  void make_run() {
+    Domain domain;
+    make_specimen(domain);
+    record_frames(folder, domain);
+    write(folder / "summary.json", R"({"scene": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
+      "elements": 12, "bonds": {"interface": 6}, "steps": 100, "time_step": 1e-5, "wall_seconds": 83,
+      "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
+      "packing": [{"density": 0.615, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
+    write(folder / "resolved.xml", "<scene name=\"small\"><fill/></scene><script>alert(1)</script>");
+    write(folder / "run.log", "first line\nlast line\n");
+    write(folder / "curves/force.csv",
+          "step [1],time [s],displacement [m],force [N],reference Eq (10) [N]\n"
+          "0,0,0,0,0\n50,5e-4,1e-4,30,31\n100,1e-3,2e-4,60,59\n");
+    write(folder / "curves/force.json", R"({"title": "Load", "x": "displacement", "y": ["force"], "x_label": "opening",
+      "x_scale": 1000, "x_unit": "mm", "references": ["paper.csv"]})");
+    write(folder / "curves/references/paper.csv", "opening [mm],Fig 14 [N]\n0,0\n0.2,61\n");
+    write(folder / "curves/energy.csv",
+          "step [1],time [s],external work [J],elastic [J],kinetic [J]\n0,0,0,0,0\n100,1e-3,2,1.5,0.48\n");
+  }
+
+  std::string page() { return read(write_report(folder)); }
+
+  fs::path folder;
+};
+
+TEST_F(Report, shows_the_facts_with_their_units) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<span class=\"badge done\">done</span>"));
+  EXPECT_THAT(html, HasSubstr("time 1 ms reached"));
+  EXPECT_THAT(html, HasSubstr("21.5 million/s"));
+  EXPECT_THAT(html, HasSubstr("1 min 23 s"));
+  EXPECT_THAT(html, HasSubstr("1 × 10⁻⁵ s"));
+  EXPECT_THAT(html, HasSubstr("<th>something new</th><td>4.25</td>"));  // a key that nobody foresaw
+}
+
+TEST_F(Report, draws_the_curve_with_its_labels_units_and_references) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<figcaption>Load</figcaption>"));
+  EXPECT_THAT(html, HasSubstr(">opening [mm]</text>"));
+  EXPECT_THAT(html, HasSubstr(">force [N]</text>"));
+  EXPECT_THAT(html, HasSubstr("Eq (10)"));
+  EXPECT_THAT(html, HasSubstr("class=\"line s1 dashed\""));
+  EXPECT_THAT(html, HasSubstr("Fig 14"));
+  EXPECT_THAT(html, HasSubstr("opening 0.2 mm  ·  force 60"));  // under the pointer
+}
+
+TEST_F(Report, pictures_say_at_which_loading_and_in_which_state_the_specimen_is) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<img src=\"data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_THAT(html, HasSubstr("<b>opening 0.2 mm</b>"));
+  EXPECT_THAT(html, HasSubstr("4 elastic"));
+  EXPECT_THAT(html, HasSubstr("1 softening"));
+  EXPECT_THAT(html, HasSubstr("1 broken"));
+  EXPECT_THAT(html, HasSubstr("Side view, x to the right, z up"));
+  EXPECT_THAT(html, HasSubstr("true to scale"));
+  EXPECT_THAT(html, HasSubstr("set lower"));
+}
+
+TEST_F(Report, the_ledger_names_its_residual) {
+  make_run();
+  EXPECT_THAT(page(), HasSubstr("The ledger closes to <b>1.00 %</b>"));  // derived: (2 - 1.98) / 2
+}
+
+TEST_F(Report, breaks_and_packing_are_there) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("1 bond broke, releasing 1 mJ."));
+  EXPECT_THAT(html, HasSubstr("bonds broken so far"));
+  EXPECT_THAT(html, HasSubstr("<th>density</th><td>0.615</td>"));
+  EXPECT_THAT(html, HasSubstr("<title>100 to 200: 7</title>"));  // micrometres
+}
+
+TEST_F(Report, text_of_the_deck_does_not_become_markup) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, HasSubstr("&lt;script&gt;alert(1)"));
+  EXPECT_THAT(html, HasSubstr("<h1>small &lt;b&gt;&amp; bold</h1>"));
+}
+
+TEST_F(Report, needs_nothing_from_elsewhere) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, Not(HasSubstr("http")));
+  EXPECT_THAT(html, Not(HasSubstr("src=\"/")));
+}
+
+TEST_F(Report, the_same_run_gives_the_same_bytes) {
+  make_run();
+  const std::string once = page();
+  EXPECT_EQ(once, page());
+}
+
+TEST_F(Report, without_a_record_it_says_so_and_shows_the_rest) {
+  make_run();
+  fs::remove(folder / "run.h5");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("There is no run.h5, so there are no pictures"));
+  EXPECT_THAT(html, HasSubstr("<figcaption>Load</figcaption>"));
+  EXPECT_THAT(html, Not(HasSubstr("<img")));
+}
+
+TEST_F(Report, a_damaged_record_is_told_from_a_missing_one) {
+  make_run();
+  write(folder / "run.h5", "this is not HDF5");
+  EXPECT_THAT(page(), HasSubstr("run.h5 cannot be read"));
+}
+
+TEST_F(Report, a_frame_whose_file_is_lost_is_left_out) {
+  make_run();
+  for (const auto& file : fs::directory_iterator(folder / "frames")) {
+    fs::remove(file);
+    break;
+  }
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("1 frame of run.h5 cannot be read"));
+  EXPECT_THAT(html, HasSubstr("<img"));
+}
+
+TEST_F(Report, a_row_that_a_kill_cut_off_is_dropped_and_said) {
+  make_run();
+  write(folder / "curves/force.csv", "step [1],time [s],force [N]\n0,0,0\n1,1e-3,5\n2,2e-3,7");
+  EXPECT_THAT(page(), HasSubstr("In curves/force.csv, 1 row was cut off"));
+}
+
+TEST_F(Report, a_run_that_was_killed_is_reported_from_what_it_had_written) {
+  make_run();
+  fs::remove(folder / "summary.json");
+  fs::remove(folder / "resolved.xml");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<span class=\"badge other\">unfinished</span>"));
+  EXPECT_THAT(html, HasSubstr("it is still going on, or it was killed"));
+  EXPECT_THAT(html, HasSubstr("<h1>in the record</h1>"));
+  EXPECT_THAT(html, HasSubstr("<img"));
+}
+
+TEST_F(Report, an_interrupted_run_says_why_it_ended) {
+  write(folder / "summary.json", R"({"status": "interrupted", "exit_reason": "SIGINT; resume with: beadwork run --resume"})");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("badge interrupted"));
+  EXPECT_THAT(html, HasSubstr("resume with"));
+  EXPECT_THAT(html, HasSubstr("There are no curves"));
+}
+
+TEST_F(Report, a_folder_that_is_no_run_is_refused) {
+  EXPECT_THROW(write_report(folder), MachineFailure);
+  fs::create_directories(folder);
+  try {
+    write_report(folder);
+    FAIL();
+  } catch (const MachineFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("is not the folder of a run"));
+  }
+}
+
+TEST_F(Report, writes_one_picture_of_the_specimen) {
+  make_run();
+  write_picture(folder, folder / "specimen.png");
+  EXPECT_THAT(read(folder / "specimen.png"), HasSubstr("PNG"));
+}
+
+TEST(ReportTable, a_heading_has_a_name_and_a_unit) {
+  const report::Table table = report::parse_table("force of left [N],ratio\n1,2\nnan,\n", true);
+  EXPECT_EQ(table.columns[0].name, "force of left");
+  EXPECT_EQ(table.columns[0].unit, "N");
+  EXPECT_EQ(table.columns[1].unit, "1");
+  EXPECT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.dropped_rows, 0);
+}
+
+TEST(ReportChart, ticks_are_round_numbers) {
+  EXPECT_THAT(report::ticks(0, 1.6, 8), testing::Pointwise(testing::DoubleNear(1e-12),
+                                                           {0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6}));
+  EXPECT_EQ(report::ticks(3, 3, 5).size(), 1U);
+}
+
+TEST(ReportChart, thinning_keeps_the_peak_and_the_ends) {
+  std::vector<double> y(100000, 1);
+  y[54321] = 9;
+  y[12345] = -3;
+  const auto rows = report::thinned(y, 900);
+  EXPECT_LE(rows.size(), 1000U);
+  EXPECT_THAT(rows, testing::AllOf(testing::Contains(54321U), testing::Contains(12345U), testing::Contains(99999U),
+                                   testing::Contains(0U)));
+}
+
+TEST(ReportText, numbers_read_well) {
+  EXPECT_EQ(report::number(0.23333), "0.2333");
+  EXPECT_EQ(report::number(-5e-8), "−5 × 10⁻⁸");
+  EXPECT_EQ(report::number(9.99996), "10");
+  EXPECT_EQ(report::count(40000), "40\u202f000");
+  EXPECT_EQ(report::duration(4000), "1 h 6 min");
+  EXPECT_EQ(report::readable("m", 0.0016).unit, "mm");
+  EXPECT_EQ(report::base64("beads", 5), "YmVhZHM=");
+}
+
+}  // namespace
+}  // namespace beadwork
