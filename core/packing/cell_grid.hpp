@@ -21,6 +21,10 @@ struct Pair {
 std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance = 0,
                              Real gap = 0);
 
+/// The same, without the pairs of two elements that both stand at `moving` or behind: obstacles, which may overlap.
+std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius, std::size_t moving,
+                                    Real tolerance = 0, Real gap = 0);
+
 /// The neighbours of each element, both ways: those of element i are other[first[i]] ... other[first[i + 1] - 1],
 /// in rising order.
 struct NeighbourList {

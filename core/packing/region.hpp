@@ -67,6 +67,10 @@ Real inradius(const Region&);
 /// A point of the region from three numbers in [0, 1), uniform over its volume; with a margin, over the part whose
 /// distance from every wall is at least the margin.
 Vec3 point_in(const Region&, const Vec3& unit, Real margin = 0);
+/// The part of the region whose distance from every wall is at least the margin; the margin is below the inradius.
+Region shrunk(const Region&, Real margin);
+/// The smallest box along the axes that holds the region.
+Box bounds(const Region&);
 /// The same region in another unit of length and with its origin elsewhere: x -> (x - origin) / unit.
 Region rescaled(const Region&, const Vec3& origin, Real unit);
 Vec3 centre(const Region&);

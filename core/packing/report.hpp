@@ -23,7 +23,7 @@ struct PackingReport {
   std::uint64_t seed = 0;
   Real seconds = 0;
   Coordination touching;       ///< gap <= 1e-6 (R1 + R2)
-  Coordination near;           ///< gap <= tolerance (R1 + R2): what bonds will be made of
+  Coordination near;           ///< gap <= tolerance (R1 + R2): what bonds are made of
   Real tolerance = 0;
   Real rattlers = 0;           ///< share of the elements
   Real max_overlap = 0;        ///< overlap / (R1 + R2), over all pairs and, over R, all walls
@@ -37,17 +37,21 @@ struct PackingReport {
   std::vector<Real> histogram_edges;      ///< R / mean R
   std::vector<std::size_t> histogram;
   Real kolmogorov = 0;         ///< distance of the radii from the law asked for
-  Real bond_order = 0;         ///< mean local Q6; about .40 in a random packing, .57 fcc, .48 hcp
-  bool crystalline = false;    ///< the order is that of a crystal: not an isotropic solid
+  Real bond_order = 0;         ///< mean correlation of the bond directions of neighbours (l = 6): 1 in a crystal
+  Real crystalline_share = 0;  ///< elements whose surroundings agree with those of 7 neighbours or more
 };
 
-/// Figures of a packing; `tolerance` is the gap by which bonds are going to be made.
+/// Figures of a packing; `tolerance` is the gap by which bonds are to be made.
 PackingReport report(const Packing&, Real tolerance = 1e-3);
 
 /// Which elements are farther than `margin` from every wall of the region.
 std::vector<char> in_bulk(const Region&, std::span<const Vec3> position, Real margin);
 
-/// Share of the volume farther than `margin` from walls and obstacles that lies in elements.
+/// Share of the volume farther than `margin` from walls and obstacles that lies in elements; 0 if there is no such
+/// volume. Counted on evenly spread points: good to about .001.
 Real density_in_bulk(const Packing&, Real margin);
+
+/// The packing that stored positions and radii make, to be reported on.
+Packing packing_of(const Region&, const Dispersion&, std::vector<Vec3> position, std::vector<Real> radius);
 
 }  // namespace beadwork::packing

@@ -1,0 +1,28 @@
+#pragma once
+// Sums over elements in fixed blocks, added in a fixed order: the same bits for any number of threads.
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace beadwork::packing {
+
+/// Calls `part(begin, end, sum)` on each block of the range, each with its own sum, and adds the sums in order.
+template <class Sum, class Part>
+Sum sum_in_blocks(std::size_t count, const Part& part) {
+  constexpr std::size_t block = 512;
+  const std::size_t blocks = (count + block - 1) / block;
+  std::vector<Sum> sums(blocks);
+#pragma omp parallel for schedule(static)
+  for (std::size_t b = 0; b < blocks; ++b) {
+    Sum sum{};
+    part(b * block, std::min(count, (b + 1) * block), sum);
+    sums[b] = std::move(sum);
+  }
+  Sum total{};
+  for (const Sum& sum : sums) total += sum;
+  return total;
+}
+
+}  // namespace beadwork::packing

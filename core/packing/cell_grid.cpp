@@ -1,0 +1,248 @@
+#include "core/packing/cell_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace beadwork {
+namespace {
+
+constexpr std::int64_t cells_per_axis = 1 << 20;
+constexpr int max_levels = 16;
+
+struct Rule {
+  Real tolerance;
+  Real gap;
+  Real reach(Real a, Real b) const { return (1 + tolerance) * (a + b) + gap; }
+};
+
+struct Cloud {
+  std::span<const Vec3> position;
+  std::span<const Real> radius;
+  Rule rule;
+  Vec3 low = zero<Vec3>();
+  Real extent = 0;
+
+  bool near(Index i, Index j) const {
+    const Real reach = rule.reach(radius[i], radius[j]);
+    return (position[j] - position[i]).squaredNorm() <= reach * reach;
+  }
+};
+
+/// Elements of similar size in cells at least as wide as the reach of any two of them. Occupied cells only are kept,
+/// in a hash table, so that one element far away costs nothing.
+class Level {
+ public:
+  Level(const Cloud& cloud, std::vector<Index> members) : cloud_(cloud) {
+    for (const Index i : members) largest_ = std::max(largest_, cloud.radius[i]);
+    edge_ = std::max(cloud.rule.reach(largest_, largest_), cloud.extent / Real(cells_per_axis - 4));
+    if (!(edge_ > 0)) edge_ = 1;
+    sort_into_cells(members);
+    fill_table();
+  }
+
+  Real largest() const { return largest_; }
+  const std::vector<Index>& members() const { return element_; }
+
+  template <class Visit>
+  void visit_around(const Vec3& x, const Visit& visit) const {
+    const auto c = cell_of(x);
+    for (std::int64_t dz = -1; dz <= 1; ++dz)
+      for (std::int64_t dy = -1; dy <= 1; ++dy)
+        for (std::int64_t dx = -1; dx <= 1; ++dx) {
+          const std::size_t cell = find(key_of(c[0] + dx, c[1] + dy, c[2] + dz));
+          if (cell == none) continue;
+          for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) visit(element_[k]);
+        }
+  }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Entry {
+    std::uint64_t key;
+    Index element;
+  };
+
+  std::array<std::int64_t, 3> cell_of(const Vec3& x) const {
+    std::array<std::int64_t, 3> c;
+    for (int a = 0; a < 3; ++a) c[a] = 2 + static_cast<std::int64_t>(std::floor((x[a] - cloud_.low[a]) / edge_));
+    return c;
+  }
+  static std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
+    return std::uint64_t(x) | std::uint64_t(y) << 21 | std::uint64_t(z) << 42;
+  }
+
+  void sort_into_cells(const std::vector<Index>& members) {
+    std::vector<Entry> entries(members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const auto c = cell_of(cloud_.position[members[k]]);
+      entries[k] = {key_of(c[0], c[1], c[2]), members[k]};
+    }
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.element < b.element; });
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      if (k == 0 || entries[k].key != entries[k - 1].key) {
+        key_.push_back(entries[k].key);
+        start_.push_back(k);
+      }
+      element_.push_back(entries[k].element);
+    }
+    start_.push_back(entries.size());
+  }
+
+  void fill_table() {
+    table_.assign(std::bit_ceil(2 * key_.size() + 2), none);
+    for (std::size_t cell = 0; cell < key_.size(); ++cell) {
+      std::size_t slot = slot_of(key_[cell]);
+      while (table_[slot] != none) slot = (slot + 1) & (table_.size() - 1);
+      table_[slot] = cell;
+    }
+  }
+  std::size_t slot_of(std::uint64_t key) const {
+    key *= 0x9E3779B97F4A7C15ull;
+    return (key ^ key >> 32) & (table_.size() - 1);
+  }
+  std::size_t find(std::uint64_t key) const {
+    std::size_t slot = slot_of(key);
+    while (table_[slot] != none && key_[table_[slot]] != key) slot = (slot + 1) & (table_.size() - 1);
+    return table_[slot];
+  }
+
+  const Cloud& cloud_;
+  Real largest_ = 0;
+  Real edge_ = 1;
+  std::vector<std::uint64_t> key_;
+  std::vector<std::size_t> start_;
+  std::vector<Index> element_;
+  std::vector<std::size_t> table_;
+};
+
+void check(std::span<const Vec3> position, std::span<const Real> radius, const Rule& rule) {
+  if (position.size() != radius.size())
+    throw std::invalid_argument("there are " + std::to_string(position.size()) + " positions but " +
+                                std::to_string(radius.size()) + " radii");
+  if (!(std::isfinite(rule.tolerance) && rule.tolerance >= 0 && std::isfinite(rule.gap) && rule.gap >= 0))
+    throw std::invalid_argument("the gap tolerance must be finite and not negative");
+  const auto refuse = [](const char* what, std::size_t i, const char* why) {
+    throw std::invalid_argument(std::string(what) + " of element " + std::to_string(i) + why);
+  };
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (!position[i].allFinite()) refuse("the position", i, " is not finite");
+    if (!(std::isfinite(radius[i]) && radius[i] >= 0)) refuse("the radius", i, " is negative or not finite");
+  }
+}
+
+Cloud cloud_of(std::span<const Vec3> position, std::span<const Real> radius, const Rule& rule) {
+  Cloud cloud{position, radius, rule};
+  if (position.empty()) return cloud;
+  Vec3 high = position[0];
+  cloud.low = position[0];
+  for (const Vec3& x : position) {
+    cloud.low = cloud.low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  cloud.extent = (high - cloud.low).maxCoeff();
+  return cloud;
+}
+
+/// Levels by halves of the largest radius, from the largest elements to the smallest.
+std::vector<Level> levels_of(const Cloud& cloud, std::size_t begin, std::size_t end) {
+  Real largest = 0;
+  for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, cloud.radius[i]);
+  std::vector<std::vector<Index>> members(max_levels);
+  for (std::size_t i = begin; i < end; ++i) {
+    const Real ratio = cloud.radius[i] > 0 ? largest / cloud.radius[i] : Real(1 << max_levels);
+    const int level = std::min(ratio < Real(1 << max_levels) ? std::ilogb(ratio) : max_levels, max_levels - 1);
+    members[std::size_t(level)].push_back(static_cast<Index>(i));
+  }
+  std::vector<Level> levels;
+  for (auto& m : members)
+    if (!m.empty()) levels.emplace_back(cloud, std::move(m));
+  return levels;
+}
+
+/// Pairs of the members of one level, with each other and with the elements of another that are larger.
+template <class Accept>
+void search(const Cloud& cloud, const Level& from, const Level& in, std::vector<std::vector<Pair>>& found,
+            const Accept& accept) {
+  constexpr std::size_t block = 1024;
+  const std::size_t blocks = (from.members().size() + block - 1) / block;
+  const std::size_t base = found.size();
+  found.resize(base + blocks);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t end = std::min(from.members().size(), (b + 1) * block);
+    for (std::size_t k = b * block; k < end; ++k) {
+      const Index i = from.members()[k];
+      in.visit_around(cloud.position[i], [&](Index j) {
+        if (accept(i, j) && cloud.near(i, j)) found[base + b].push_back({std::min(i, j), std::max(i, j)});
+      });
+    }
+  }
+}
+
+std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_t elements) {
+  std::vector<std::size_t> first(elements + 1, 0);
+  for (const auto& part : found)
+    for (const Pair& p : part) ++first[std::size_t(p.i) + 1];
+  for (std::size_t i = 0; i < elements; ++i) first[i + 1] += first[i];
+  std::vector<Pair> pairs(first[elements]);
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  for (const auto& part : found)
+    for (const Pair& p : part) pairs[next[p.i]++] = p;
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < elements; ++i)
+    std::sort(pairs.begin() + std::ptrdiff_t(first[i]), pairs.begin() + std::ptrdiff_t(first[i + 1]),
+              [](const Pair& a, const Pair& b) { return a.j < b.j; });
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance, Real gap) {
+  return find_pairs_around(position, radius, position.size(), tolerance, gap);
+}
+
+std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius, std::size_t moving,
+                                    Real tolerance, Real gap) {
+  const Rule rule{tolerance, gap};
+  check(position, radius, rule);
+  const Cloud cloud = cloud_of(position, radius, rule);
+  moving = std::min(moving, position.size());
+  const auto own = levels_of(cloud, 0, moving);
+  const auto fixed = levels_of(cloud, moving, position.size());
+  std::vector<std::vector<Pair>> found;
+  const auto once = [](Index i, Index j) { return i < j; };
+  const auto always = [](Index, Index) { return true; };
+  for (std::size_t a = 0; a < own.size(); ++a) {
+    search(cloud, own[a], own[a], found, once);
+    for (std::size_t b = 0; b < a; ++b) search(cloud, own[a], own[b], found, always);
+    for (const Level& f : fixed)
+      if (own[a].largest() <= f.largest())
+        search(cloud, own[a], f, found, always);
+      else
+        search(cloud, f, own[a], found, always);
+  }
+  return sorted(found, position.size());
+}
+
+NeighbourList neighbours_of(std::span<const Pair> pairs, std::size_t elements) {
+  NeighbourList list;
+  list.first.assign(elements + 1, 0);
+  for (const Pair& p : pairs) {
+    ++list.first[std::size_t(p.i) + 1];
+    ++list.first[std::size_t(p.j) + 1];
+  }
+  for (std::size_t i = 0; i < elements; ++i) list.first[i + 1] += list.first[i];
+  list.other.resize(list.first[elements]);
+  std::vector<std::size_t> next(list.first.begin(), list.first.end() - 1);
+  for (const Pair& p : pairs) list.other[next[p.j]++] = p.i;  // the smaller ones first: pairs are sorted by i
+  for (const Pair& p : pairs) list.other[next[p.i]++] = p.j;
+  return list;
+}
+
+}  // namespace beadwork

@@ -1,0 +1,119 @@
+#include "core/packing/crowd.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/packing/blocks.hpp"
+#include "core/packing/order.hpp"
+
+namespace beadwork::packing {
+
+Crowd crowd_of(const Packing& packing, std::vector<Index>& order) {
+  Crowd crowd;
+  crowd.origin = centre(packing.region);
+  Real sum = 0;
+  for (const Real r : packing.radius) sum += r;
+  crowd.unit = packing.radius.empty() ? inradius(packing.region) : sum / Real(packing.radius.size());
+  crowd.walls = Walls(rescaled(packing.region, crowd.origin, crowd.unit));
+  crowd.moving = packing.position.size();
+  crowd.ball.reserve(crowd.moving + packing.around.position.size());
+  order = hilbert_order(packing.position);
+  const auto add = [&](const Vec3& x, Real r) { crowd.ball.push_back({(x - crowd.origin) / crowd.unit, r / crowd.unit}); };
+  for (const Index i : order) add(packing.position[i], packing.radius[i]);
+  for (std::size_t k = 0; k < packing.around.position.size(); ++k)
+    add(packing.around.position[k], packing.around.radius[k]);
+  return crowd;
+}
+
+void put_back(const Crowd& crowd, const std::vector<Index>& order, Packing& packing) {
+  for (std::size_t k = 0; k < crowd.moving; ++k) {
+    packing.position[order[k]] = crowd.origin + crowd.unit * crowd.ball[k].x;
+    packing.radius[order[k]] = crowd.unit * crowd.ball[k].r;
+  }
+}
+
+std::vector<Pair> near_pairs(const Crowd& crowd, Real gap) {
+  std::vector<Vec3> position(crowd.ball.size());
+  std::vector<Real> radius(crowd.ball.size());
+  for (std::size_t i = 0; i < crowd.ball.size(); ++i) {
+    position[i] = crowd.ball[i].x;
+    radius[i] = crowd.ball[i].r;
+  }
+  return find_pairs_around(position, radius, crowd.moving, 0, gap);
+}
+
+Real mean_radius(const Crowd& crowd) {
+  Real sum = 0;
+  for (std::size_t i = 0; i < crowd.moving; ++i) sum += crowd.ball[i].r;
+  return sum / Real(crowd.moving);
+}
+
+void scale_radii(Crowd& crowd, Real factor) {
+  for (std::size_t i = 0; i < crowd.moving; ++i) crowd.ball[i].r *= factor;
+}
+
+bool Neighbours::still_valid(const Crowd& crowd) const {
+  if (built_for_.size() != crowd.ball.size()) return false;
+  // Two elements may come nearer by what each moved and grew; the worst two together must stay within the skin.
+  struct Largest {
+    Real change = 0;
+    void operator+=(const Largest& other) { change = std::max(change, other.change); }
+  };
+  const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Real moved = (crowd.ball[i].x - built_for_[i].x).norm();
+      const Real grown = std::max(Real(0), crowd.ball[i].r - built_for_[i].r);
+      largest.change = std::max(largest.change, moved + grown);
+    }
+  });
+  return 2 * worst.change <= skin_;
+}
+
+const NeighbourList& Neighbours::of(const Crowd& crowd) {
+  if (!still_valid(crowd)) {
+    list_ = neighbours_of(near_pairs(crowd, skin_), crowd.ball.size());
+    built_for_ = crowd.ball;
+    ++builds_;
+  }
+  return list_;
+}
+
+namespace {
+struct Tally {
+  Real contacts = 0, overlap = 0, largest = 0;
+  void operator+=(const Tally& o) {
+    contacts += o.contacts;
+    overlap += o.overlap;
+    largest = std::max(largest, o.largest);
+  }
+};
+
+Tally tally(const Crowd& crowd, const NeighbourList& list) {
+  return sum_in_blocks<Tally>(crowd.moving, [&](std::size_t begin, std::size_t end, Tally& t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Ball& a = crowd.ball[i];
+      for (const Index j : list.of(i)) {
+        const Ball& b = crowd.ball[j];
+        const Real share = 1 - (b.x - a.x).norm() / (a.r + b.r);
+        if (share <= 0) continue;
+        t.contacts += 1;
+        t.overlap += share;
+        t.largest = std::max(t.largest, share);
+      }
+      for (std::size_t w = 0; w < crowd.walls.size(); ++w)
+        t.largest = std::max(t.largest, 1 - crowd.walls.view(w, a.x).distance / a.r);
+    }
+  });
+}
+}  // namespace
+
+Real coordination(const Crowd& crowd, Neighbours& neighbours) {
+  return tally(crowd, neighbours.of(crowd)).contacts / Real(crowd.moving);
+}
+
+OverlapFigures overlaps(const Crowd& crowd, Neighbours& neighbours) {
+  const Tally t = tally(crowd, neighbours.of(crowd));
+  return {t.largest, t.contacts > 0 ? t.overlap / t.contacts : 0};
+}
+
+}  // namespace beadwork::packing

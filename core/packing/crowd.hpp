@@ -1,0 +1,64 @@
+#pragma once
+// The elements while they are being arranged: moving ones first, obstacles behind them; lengths in units of the mean
+// radius, so that the numbers of the method do not depend on the units of the specimen.
+
+#include <cstddef>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/packing/cell_grid.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/region.hpp"
+
+namespace beadwork::packing {
+
+/// Position and radius side by side: half a line of memory, loaded together in every loop over neighbours.
+struct Ball {
+  Vec3 x;
+  Real r;
+};
+
+struct Crowd {
+  Walls walls;
+  std::vector<Ball> ball;
+  std::size_t moving = 0;  ///< ball[moving] and those behind are obstacles
+  Vec3 origin;
+  Real unit;
+};
+
+/// Along a Hilbert curve; `order[k]` is the element of the packing that became ball k.
+Crowd crowd_of(const Packing&, std::vector<Index>& order);
+void put_back(const Crowd&, const std::vector<Index>& order, Packing&);
+
+/// Pairs with a gap below `gap`.
+std::vector<Pair> near_pairs(const Crowd&, Real gap);
+
+Real mean_radius(const Crowd&);
+void scale_radii(Crowd&, Real factor);
+
+/// Neighbour lists that stay valid until elements have moved or grown by the skin.
+class Neighbours {
+ public:
+  explicit Neighbours(Real skin) : skin_(skin) {}
+  /// The list for the crowd as it is; rebuilt only if needed.
+  const NeighbourList& of(const Crowd&);
+  int builds() const { return builds_; }
+
+ private:
+  bool still_valid(const Crowd&) const;
+  Real skin_;
+  int builds_ = 0;
+  std::vector<Ball> built_for_;
+  NeighbourList list_;
+};
+
+/// Contacts among elements (obstacles included, walls not) per moving element.
+Real coordination(const Crowd&, Neighbours&);
+
+struct OverlapFigures {
+  Real largest = 0;  ///< overlap / (R1 + R2); overlap / R at a wall
+  Real mean = 0;     ///< over the overlapping pairs
+};
+OverlapFigures overlaps(const Crowd&, Neighbours&);
+
+}  // namespace beadwork::packing

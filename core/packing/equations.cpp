@@ -1,0 +1,110 @@
+#include "core/packing/equations.hpp"
+
+#include "core/packing/blocks.hpp"
+
+namespace beadwork::packing {
+namespace {
+
+template <class Body>
+void each(std::size_t n, const Body& body) {
+#pragma omp parallel for schedule(static)
+  for (std::size_t e = 0; e < n; ++e) body(e);
+}
+
+Real product(const std::vector<Real>& a, const std::vector<Real>& b) {
+  return sum_in_blocks<Real>(a.size(), [&](std::size_t begin, std::size_t end, Real& s) {
+    for (std::size_t e = begin; e < end; ++e) s += a[e] * b[e];
+  });
+}
+
+}  // namespace
+
+ContactEquations::ContactEquations(std::size_t moving, const std::vector<Contact>& contacts,
+                                   const std::vector<Real>& compliance)
+    : moving_(moving), contact_(contacts), compliance_(compliance), change_(moving) {
+  list_terms();
+}
+
+void ContactEquations::list_terms() {
+  first_.assign(moving_ + 1, 0);
+  for (const Contact& c : contact_) {
+    ++first_[std::size_t(c.i) + 1];
+    if (moves(c.j)) ++first_[std::size_t(c.j) + 1];
+  }
+  for (std::size_t i = 0; i < moving_; ++i) first_[i + 1] += first_[i];
+  term_.resize(first_.back());
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t e = 0; e < contact_.size(); ++e) {
+    const auto term = static_cast<std::int32_t>(e);
+    term_[next[std::size_t(contact_[e].i)]++] = term;
+    if (moves(contact_[e].j)) term_[next[std::size_t(contact_[e].j)]++] = -1 - term;
+  }
+}
+
+Real ContactEquations::row_times_change(std::size_t e) const {
+  const Contact& c = contact_[e];
+  const Change& a = change_[std::size_t(c.i)];
+  const Real from_i = -c.n.dot(a.u) - a.r;
+  if (!moves(c.j)) return from_i;
+  const Change& b = change_[std::size_t(c.j)];
+  return from_i + c.n.dot(b.u) - b.r;
+}
+
+/// change = A^T lambda.
+void ContactEquations::scatter(const std::vector<Real>& lambda) {
+  each(moving_, [&](std::size_t i) {
+    Vec3 u = zero<Vec3>();
+    Real r = 0;
+    for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
+      const bool as_i = term_[k] >= 0;
+      const auto e = std::size_t(as_i ? term_[k] : -1 - term_[k]);
+      u += (as_i ? -lambda[e] : lambda[e]) * contact_[e].n;
+      r -= lambda[e];
+    }
+    change_[i] = {u, compliance_[i] * r};
+  });
+}
+
+void ContactEquations::apply(const std::vector<Real>& lambda, const std::vector<Real>& damping,
+                             std::vector<Real>& image) {
+  scatter(lambda);
+  each(contact_.size(), [&](std::size_t e) { image[e] = row_times_change(e) + damping[e] * lambda[e]; });
+}
+
+std::vector<Real> ContactEquations::remaining() const {
+  std::vector<Real> gap(contact_.size());
+  each(contact_.size(), [&](std::size_t e) { gap[e] = contact_[e].gap + row_times_change(e); });
+  return gap;
+}
+
+int ContactEquations::solve(Real damping, Real reduction, int most) {
+  const std::size_t n = contact_.size();
+  std::vector<Real> lambda(n, 0), residual(n), scaled(n), direction(n), image(n), inverse(n), extra(n);
+  each(n, [&](std::size_t e) {
+    const Contact& c = contact_[e];
+    const Real diagonal = 1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
+    extra[e] = damping * diagonal;
+    inverse[e] = 1 / (diagonal + extra[e]);
+    residual[e] = -c.gap;
+    direction[e] = scaled[e] = inverse[e] * residual[e];
+  });
+  Real rho = product(residual, scaled);
+  const Real goal = rho * reduction * reduction;
+  int k = 0;
+  for (; k < most && rho > goal; ++k) {
+    apply(direction, extra, image);
+    const Real step = rho / product(direction, image);
+    each(n, [&](std::size_t e) {
+      lambda[e] += step * direction[e];
+      residual[e] -= step * image[e];
+      scaled[e] = inverse[e] * residual[e];
+    });
+    const Real before = rho;
+    rho = product(residual, scaled);
+    each(n, [&](std::size_t e) { direction[e] = scaled[e] + rho / before * direction[e]; });
+  }
+  scatter(lambda);
+  return k;
+}
+
+}  // namespace beadwork::packing

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "core/packing/insertion.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/settle.hpp"
+
+namespace beadwork::packing {
+namespace {
+
+constexpr Real skin = 0.35;            // of the mean radius
+constexpr int most_rounds = 40;
+constexpr Real most_overlap = 0.04;    // mean; beyond it elements are no longer spheres that touch
+
+void check(const ForcedFilling& rule) {
+  if (!(std::isfinite(rule.coordination) && rule.coordination > 0))
+    throw std::invalid_argument("the coordination number must be positive, got " + std::to_string(rule.coordination));
+  if (!(rule.tolerance >= 0 && rule.tolerance < 1))
+    throw std::invalid_argument("the overlap tolerance must be at least 0 and below 1, got " +
+                                std::to_string(rule.tolerance));
+}
+
+/// Places as many of the waiting elements as the tolerance lets, each where there is the most room.
+std::size_t place_waiting(Packing& packing, Real tolerance, Random& random) {
+  const auto largest = [](const std::vector<Real>& r) { return r.empty() ? Real(0) : *std::max_element(r.begin(), r.end()); };
+  InsertionGrid grid(packing.region, std::max(largest(packing.radius), largest(packing.waiting)));
+  for (std::size_t i = 0; i < packing.position.size(); ++i) grid.add({packing.position[i], packing.radius[i]});
+  for (std::size_t k = 0; k < packing.around.position.size(); ++k)
+    grid.add_obstacle({packing.around.position[k], packing.around.radius[k]});
+  std::sort(packing.waiting.begin(), packing.waiting.end(), std::greater<>());  // the large ones need the best places
+  std::vector<Ball> placed;
+  insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000}, random,
+                   packing.waiting, placed);
+  for (const Ball& ball : placed) {
+    packing.position.push_back(ball.x);
+    packing.radius.push_back(ball.r);
+  }
+  return placed.size();
+}
+
+void rearrange(Packing& packing, int steps) {
+  std::vector<Index> order;
+  Crowd crowd = crowd_of(packing, order);
+  Neighbours neighbours(skin);
+  settle(crowd, neighbours, steps, 0.1);
+  put_back(crowd, order, packing);
+}
+
+void place_all(Packing& packing, Real tolerance) {
+  Random random(packing.seed, 3);
+  for (int round = 0; !packing.waiting.empty(); ++round) {
+    const std::size_t placed = place_waiting(packing, tolerance, random);
+    if (packing.waiting.empty()) return;
+    if (round == most_rounds || (placed == 0 && round > 5))
+      throw PackingFailure(std::to_string(packing.waiting.size()) + " of " +
+                           std::to_string(packing.waiting.size() + packing.position.size()) +
+                           " elements found no place with an overlap of at most " + std::to_string(tolerance) +
+                           " (R1 + R2): raise the overlap tolerance, or ask for fewer or smaller elements");
+    rearrange(packing, 100);
+  }
+}
+
+/// Radii grow or shrink together until the coordination number is that asked, or a little above.
+void reach_coordination(Crowd& crowd, Real asked) {
+  constexpr Real band = 0.03;
+  constexpr Real slope = 90;  // recorded: dZ / d(ln R) near Z = 6.2
+  Neighbours neighbours(skin);
+  Real Z = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    settle(crowd, neighbours, round == 0 ? 600 : 300, 0.03);
+    Z = coordination(crowd, neighbours);
+    if (Z >= asked && Z <= asked + band) return;
+    if (overlaps(crowd, neighbours).mean > most_overlap) break;
+    scale_radii(crowd, 1 + std::clamp((asked + band / 2 - Z) / slope, -0.01, 0.01));
+  }
+  std::ostringstream out;
+  out << "a coordination number of " << asked << " cannot be reached with " << crowd.moving
+      << " elements: it is " << Z << " where they overlap by " << 100 * overlaps(crowd, neighbours).mean
+      << " % of R1 + R2 on average; ask for a lower coordination number"
+      << (crowd.moving < 1000 ? ", or for more elements (those at the walls have fewer contacts)" : "");
+  throw PackingFailure(out.str());
+}
+
+}  // namespace
+
+void forced_filling(Packing& packing, const ForcedFilling& rule) {
+  const auto start = std::chrono::steady_clock::now();
+  check(rule);
+  if (packing.position.empty() && packing.waiting.empty())
+    throw std::invalid_argument("there are no elements to fill with: free filling comes first");
+  place_all(packing, rule.tolerance);
+  std::vector<Index> order;
+  Crowd crowd = crowd_of(packing, order);
+  reach_coordination(crowd, rule.coordination);
+  put_back(crowd, order, packing);
+  packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace beadwork::packing

@@ -1,0 +1,122 @@
+#include "core/packing/insertion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beadwork::packing {
+namespace {
+
+constexpr Real most_cells = 3e7;
+
+/// Lowers `clearance` to that between two balls; false once it is below `least`.
+bool lower(Real& clearance, Real least, const Ball& a, const Ball& b) {
+  const Real sum = a.r + b.r;
+  const Real d2 = (b.x - a.x).squaredNorm();
+  if (d2 >= (1 + clearance) * (1 + clearance) * sum * sum) return true;
+  clearance = std::sqrt(d2) / sum - 1;
+  return clearance >= least;
+}
+
+}  // namespace
+
+InsertionGrid::InsertionGrid(const Region& region, Real largest_radius) : reach_(largest_radius) {
+  const Box box = bounds(region);
+  const Vec3 extent = box.high - box.low;
+  low_ = box.low;
+  edge_ = std::max(2 * largest_radius, std::cbrt(extent.prod() / most_cells));
+  for (int a = 0; a < 3; ++a) cells_[a] = std::max(1, int(std::ceil(extent[a] / edge_)));
+  const std::size_t count = std::size_t(cells_[0]) * std::size_t(cells_[1]) * std::size_t(cells_[2]);
+  first_.assign(count, -1);
+  obstacles_.resize(count);
+}
+
+Eigen::Vector3i InsertionGrid::place_of(const Vec3& x) const {
+  Eigen::Vector3i c;
+  for (int a = 0; a < 3; ++a)
+    c[a] = int(std::clamp(std::floor((x[a] - low_[a]) / edge_), Real(0), Real(cells_[a] - 1)));
+  return c;
+}
+
+void InsertionGrid::add(const Ball& ball) {
+  const std::size_t cell = cell_of(ball.x);
+  entry_.push_back({ball, first_[cell]});
+  first_[cell] = static_cast<Index>(entry_.size()) - 1;
+}
+
+void InsertionGrid::add_obstacle(const Ball& ball) {
+  const Vec3 arm = Vec3::Constant(ball.r + reach_);
+  const Eigen::Vector3i from = place_of(ball.x - arm), to = place_of(ball.x + arm);
+  const Real cell_radius = edge_ * std::sqrt(Real(3)) / 2;
+  Eigen::Vector3i c;
+  for (c[2] = from[2]; c[2] <= to[2]; ++c[2])
+    for (c[1] = from[1]; c[1] <= to[1]; ++c[1])
+      for (c[0] = from[0]; c[0] <= to[0]; ++c[0]) {
+        const Vec3 middle = low_ + edge_ * (c.cast<Real>().array() + 0.5).matrix();
+        if ((middle - ball.x).norm() <= ball.r + reach_ + cell_radius) obstacles_[flat(c)].push_back(ball);
+      }
+}
+
+Real InsertionGrid::clearance(const Ball& ball, Real least) const {
+  Real clearance = 1;
+  const Eigen::Vector3i middle = place_of(ball.x);
+  for (const Ball& obstacle : obstacles_[flat(middle)])
+    if (!lower(clearance, least, ball, obstacle)) return clearance;
+  const Eigen::Vector3i from = (middle.array() - 1).max(0), to = (middle.array() + 1).min(cells_.array() - 1);
+  Eigen::Vector3i c;
+  for (c[2] = from[2]; c[2] <= to[2]; ++c[2])
+    for (c[1] = from[1]; c[1] <= to[1]; ++c[1])
+      for (c[0] = from[0]; c[0] <= to[0]; ++c[0])
+        for (Index k = first_[flat(c)]; k >= 0; k = entry_[std::size_t(k)].next)
+          if (!lower(clearance, least, ball, entry_[std::size_t(k)].ball)) return clearance;
+  return clearance;
+}
+
+bool InsertionGrid::clear_of_obstacles(const Vec3& x, Real margin) const {
+  for (const Ball& obstacle : obstacles_[cell_of(x)])
+    if ((obstacle.x - x).squaredNorm() < (obstacle.r + margin) * (obstacle.r + margin)) return false;
+  return true;
+}
+
+namespace {
+
+/// The roomiest of some random places for a radius.
+bool find_place(const InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random, Ball& ball) {
+  Real best = -rule.tolerance;
+  bool found = false;
+  for (int k = 0; k < rule.choices; ++k) {
+    Vec3 unit;
+    for (int a = 0; a < 3; ++a) unit[a] = random.uniform();
+    const Ball candidate{point_in(region, unit, ball.r), ball.r};
+    const Real clearance = grid.clearance(candidate, best);
+    if (clearance < best) continue;
+    best = clearance;
+    ball.x = candidate.x;
+    found = true;
+  }
+  return found;
+}
+
+}  // namespace
+
+void insert_at_random(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
+                      std::vector<Real>& radii, std::vector<Ball>& placed) {
+  // One go for each waiting radius in turn: a large element that finds no room does not hold up the others.
+  int failed = 0;
+  while (!radii.empty() && failed < rule.tries) {
+    std::size_t kept = 0;
+    for (const Real r : radii) {
+      Ball ball{zero<Vec3>(), r};
+      if (failed < rule.tries && find_place(grid, region, rule, random, ball)) {
+        grid.add(ball);
+        placed.push_back(ball);
+        failed = 0;
+      } else {
+        ++failed;
+        radii[kept++] = r;
+      }
+    }
+    radii.resize(kept);
+  }
+}
+
+}  // namespace beadwork::packing

@@ -1,0 +1,57 @@
+#pragma once
+// Placing elements at random where there is room.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/random.hpp"
+#include "core/base/types.hpp"
+#include "core/packing/crowd.hpp"
+
+namespace beadwork::packing {
+
+/// The region cut into cells as wide as the largest element: who is in the way of a new one.
+class InsertionGrid {
+ public:
+  InsertionGrid(const Region&, Real largest_radius);
+
+  void add(const Ball&);
+  /// Obstacles may be much larger than a cell: each is entered in every cell from which it can be touched.
+  void add_obstacle(const Ball&);
+  /// Smallest gap / (R1 + R2) between the ball and the others near it, at most 1; any number below `least` if it is
+  /// below `least`.
+  Real clearance(const Ball&, Real least) const;
+  /// Whether x is at least `margin` outside every obstacle; the margin is at most the largest radius.
+  bool clear_of_obstacles(const Vec3& x, Real margin) const;
+
+ private:
+  std::size_t cell_of(const Vec3& x) const { return flat(place_of(x)); }
+  Eigen::Vector3i place_of(const Vec3& x) const;
+  std::size_t flat(const Eigen::Vector3i& c) const {
+    return (std::size_t(c[2]) * std::size_t(cells_[1]) + std::size_t(c[1])) * std::size_t(cells_[0]) + std::size_t(c[0]);
+  }
+  struct Entry {
+    Ball ball;
+    Index next;
+  };
+  Vec3 low_;
+  Real reach_;
+  Real edge_;
+  Eigen::Vector3i cells_;
+  std::vector<Index> first_;  ///< per cell: its last entry, which names the one before
+  std::vector<Entry> entry_;
+  std::vector<std::vector<Ball>> obstacles_;
+};
+
+struct InsertionRule {
+  Real tolerance = 0;  ///< largest overlap / (R1 + R2)
+  int choices = 1;     ///< random places looked at for each element; the one with the most room is taken
+  int tries = 20000;   ///< ends after so many elements in a row found no place
+};
+
+/// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed` and entered
+/// in the grid; `radii` keeps the others.
+void insert_at_random(InsertionGrid&, const Region&, const InsertionRule&, Random&, std::vector<Real>& radii,
+                      std::vector<Ball>& placed);
+
+}  // namespace beadwork::packing

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "core/packing/blocks.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/projection.hpp"
+#include "core/packing/settle.hpp"
+
+namespace beadwork::packing {
+namespace {
+
+constexpr Real skin = 0.35;
+
+void check(const Relaxation& rule) {
+  if (!(std::isfinite(rule.overlap) && rule.overlap > 0))
+    throw std::invalid_argument("the overlap that relaxation may leave must be positive, got " +
+                                std::to_string(rule.overlap));
+  if (!(rule.radius_change >= 0 && rule.radius_change < 0.5))
+    throw std::invalid_argument("the share by which relaxation may change a radius must be at least 0 and below 0.5, got " +
+                                std::to_string(rule.radius_change));
+}
+
+struct Largest {
+  Real value = 0;
+  void operator+=(const Largest& other) { value = std::max(value, other.value); }
+};
+
+/// The share by which all radii must shrink for the last overlap to vanish.
+Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
+  const NeighbourList& list = neighbours.of(crowd);
+  return sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
+           for (std::size_t i = begin; i < end; ++i) {
+             const Ball& a = crowd.ball[i];
+             for (std::size_t w = 0; w < crowd.walls.size(); ++w)
+               largest.value = std::max(largest.value, 1 - crowd.walls.view(w, a.x).distance / a.r);
+             for (const Index j : list.of(i)) {
+               const Ball& b = crowd.ball[std::size_t(j)];
+               const Real overlap = a.r + b.r - (b.x - a.x).norm();
+               largest.value = std::max(largest.value, overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
+             }
+           }
+         })
+      .value;
+}
+
+/// Radii shrink together, each time by a little more than the mean overlap, and the forces balance again: the overlap
+/// falls in proportion to the distance from the jamming point.
+void decompress(Crowd& crowd, Neighbours& neighbours) {
+  constexpr Real small = 2e-5;
+  for (int round = 0; round < 15; ++round) {
+    settle(crowd, neighbours, 500, 0.02);
+    const Real mean = overlaps(crowd, neighbours).mean;
+    if (mean < small) return;
+    scale_radii(crowd, 1 - 1.5 * mean);
+  }
+}
+
+void warn(Packing& packing, const Projected& projected, Real goal) {
+  std::ostringstream out;
+  out << "relaxation stopped after " << projected.rounds << " rounds at an overlap of " << projected.largest
+      << " (R1 + R2), asked was " << goal << ": all radii were reduced by that share instead, and contacts opened; "
+      << "let the radii change more, or ask for a lower coordination number";
+  packing.warnings.push_back(out.str());
+}
+
+}  // namespace
+
+void relaxation(Packing& packing, const Relaxation& rule) {
+  const auto start = std::chrono::steady_clock::now();
+  check(rule);
+  if (packing.position.empty()) throw std::invalid_argument("there are no elements to relax: free filling comes first");
+  std::vector<Index> order;
+  Crowd crowd = crowd_of(packing, order);
+  Neighbours neighbours(skin);
+  const Real spread = packing.dispersion.spread;
+  if (rule.radius_change > 0 && spread > 0) {
+    const Projected projected =
+        project(crowd, neighbours, {1 - spread, 1 + spread, rule.radius_change}, rule.overlap / 2);
+    if (projected.largest > rule.overlap) warn(packing, projected, rule.overlap);
+  } else {
+    decompress(crowd, neighbours);
+  }
+  const Real left = shrinkage_needed(crowd, neighbours);
+  if (left > rule.overlap / 2) scale_radii(crowd, 1 - left);
+  put_back(crowd, order, packing);
+  packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace beadwork::packing
