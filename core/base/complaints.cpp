@@ -44,6 +44,8 @@ std::string excerpt(const Location& at) {
     shown += unprintable ? '?' : c;
     if (column < at.column && starts_character(c)) padding += c == '\t' ? '\t' : ' ';
   }
+  if (column + 1 < at.column)
+    padding.append(static_cast<std::size_t>(at.column - column - 1), ' ');  // behind its end
   return shown + "\n" + padding + "^\n";
 }
 

@@ -34,7 +34,9 @@ const NamedDimension friendly_names[] = {
 bool equal_exponents(double a, double b) { return std::abs(a - b) < 1e-9; }
 
 std::string with_exponent(const char* name, double exponent) {
-  return equal_exponents(exponent, 1) ? name : std::string(name) + "^" + format_number(exponent);
+  return equal_exponents(exponent, 1)
+             ? name
+             : std::string(name) + "^" + format_number(std::round(exponent * 1e6) / 1e6);
 }
 
 }  // namespace
@@ -188,6 +190,7 @@ std::string_view leading_name(std::string_view text) {
 }
 
 enum class Where { alone, in_expression };
+constexpr double largest_exponent = 20;
 
 /// The exponent that text begins with ("^-0.5", "2", alone also "-1") and its length; 1 and 0 if there is
 /// none.
@@ -226,6 +229,7 @@ std::optional<LeadingUnit> leading_unit(std::string_view text, Where where,
     at += name.size();
     const auto [exponent, length] = leading_exponent(text.substr(at), where);
     at += length;
+    if (std::abs(exponent) > largest_exponent) return {};
     result.unit.scale *= std::pow(found->unit.scale, sign * exponent);
     result.unit.dimension = result.unit.dimension * power(found->unit.dimension, sign * exponent);
     result.length = at;

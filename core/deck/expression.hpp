@@ -1,13 +1,13 @@
 #pragma once
 // Arithmetic on quantities: ${0.3*length}, where="x < 13.5 mm and radius > 2 um".
 //
-// Numbers may carry a unit (13.5 mm, 0.5 N/mm; the unit has no spaces in it and binds tighter than any
-// operator). Operators, loosest first: or || - and && - == != < <= > >= - + - * / - sign, not - ^ .
-// Functions: sqrt abs min max keep track of the dimension; sin cos tan asin acos atan exp log (natural, also
-// ln) log10 floor ceil round sign want plain numbers; if(condition, then, otherwise). pi is known. ${ } is a
-// pair of brackets. Both sides of + - and of a comparison need one dimension, a bare 0 too. Names of
-// parameters may hold . and -. A - directly between letters or digits belongs to the name if a parameter (or
-// variable) of that longer name exists, the longest wins; otherwise, or with spaces around it, it is a minus.
+// Numbers    may carry a unit: 13.5 mm, 0.5 N/mm. It holds no blanks and binds tighter than any operator.
+// Operators  from loose to tight: or ||, and &&, not, == != < <= > >=, + -, * /, sign, ^ (2^3^2 is 2^9).
+//            Both sides of + - and of a comparison need one dimension, also where one of them is 0.
+// Functions  sqrt abs min max follow the dimension; sign atan2 forget it; plain numbers for sin cos tan
+//            asin acos atan exp log (natural, = ln) log10 floor ceil round; if(condition, then, otherwise).
+// Names      parameters, variables, pi. ${ } is a pair of brackets. Names may hold . and -: a - without
+//            blanks belongs to the name if a parameter of that longer name exists (the longest wins).
 
 #include <optional>
 #include <span>

@@ -96,6 +96,7 @@ std::string in_plain_words(const mu::ParserError& error) {
   switch (error.GetCode()) {
     case mu::ecUNEXPECTED_EOF:
       return "the expression ends too early";
+    case mu::ecUNASSIGNABLE_TOKEN:
     case mu::ecUNEXPECTED_OPERATOR:
       return "an operator cannot stand here";
     case mu::ecUNEXPECTED_VAL:
@@ -107,7 +108,7 @@ std::string in_plain_words(const mu::ParserError& error) {
     case mu::ecMISSING_PARENS:
       return "a bracket is not closed";
     case mu::ecUNEXPECTED_ARG_SEP:
-      return "a comma cannot stand here; decimals have a point";
+      return "a comma cannot stand here";
     case mu::ecTOO_MANY_PARAMS:
       return "this function has too many arguments";
     case mu::ecTOO_FEW_PARAMS:
@@ -117,13 +118,15 @@ std::string in_plain_words(const mu::ParserError& error) {
   }
 }
 
-/// The tokens as muParser shall read them: leaves become constants #0 #1 ... that hold handles. `origin`
+/// The tokens as muParser shall read them: leaves become constants v0 v1 ... that hold handles. `origin`
 /// tells for each character which token it came from.
 std::string translated(const std::vector<Token>& tokens, std::vector<std::size_t>& origin) {
   std::string text;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     const bool is_leaf = tokens[i].kind != Token::Kind::sign && tokens[i].kind != Token::Kind::function;
-    text += (is_leaf ? "v" + std::to_string(i) : tokens[i].text) + " ";
+    text += is_leaf ? "v" + std::to_string(i) : tokens[i].text;
+    if (tokens[i].kind != Token::Kind::function)
+      text += ' ';  // muParser wants the bracket right behind the name
     origin.resize(text.size(), i);
   }
   return text;
@@ -145,10 +148,7 @@ int record(const std::vector<Token>& tokens, const std::vector<int>& handles, st
     for (std::size_t i = 0; i < tokens.size(); ++i)
       if (handles[i] >= 0) parser.DefineConst("v" + std::to_string(i), handles[i]);
     parser.SetExpr(text);
-    const int result = static_cast<int>(parser.Eval());
-    if (parser.GetNumResults() != 1)
-      throw ExpressionMistake(0, "commas separate only the arguments of a function; decimals have a point");
-    return result;
+    return static_cast<int>(parser.Eval());
   } catch (const mu::ParserError& error) {
     const auto position = static_cast<std::size_t>(error.GetPos());
     const bool is_known = position < origin.size() && error.GetCode() != mu::ecUNEXPECTED_EOF;

@@ -119,6 +119,8 @@ class PieceReader {
 
   /// Gives the last value its unit, and all bare values before it.
   bool unit(std::string_view text, std::size_t at) {
+    if (std::string_view("+-*/^()").find(text.front()) != std::string_view::npos)
+      return fail(at, "arithmetic stands inside ${ }");
     const auto found = find_unit(text);
     if (!found) return fail(at, values.empty() ? "" : why_no_unit(text));
     if (values.empty()) return fail(at, "a number is missing before the unit");

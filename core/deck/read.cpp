@@ -40,13 +40,14 @@ class Refusal {
 };
 
 /// What is wrong with a value where `unit` is wanted, as the end of a sentence; nothing if all is well.
-std::optional<std::string> objection(const Value& value, std::string_view unit) {
-  const bool is_bare_angle = is_angle(unit) && value.is_literal && value.is_bare;
+std::optional<std::string> objection(const Value& value, std::string_view unit, bool is_one_of_many) {
+  const bool has_no_unit = value.is_literal && value.is_bare;
   const Dimension& got = value.quantity.dimension;
-  if (got == dimension_of(unit) && !is_bare_angle) return {};
-  if (got.is_plain() && value.is_literal && value.is_bare)
-    return wanted_by(unit).find("such as") == std::string::npos ? " without a unit" : "";
-  return got.is_plain() ? " which is a plain number" : " which is " + got.name();
+  if (got == dimension_of(unit) && !(is_angle(unit) && has_no_unit)) return {};
+  if (!has_no_unit) return " which is " + (got.is_plain() ? "a plain number" : got.name());
+  if (is_one_of_many) return ": " + format_number(value.quantity.value) + " has no unit";
+  const bool shows_an_example = wanted_by(unit).find("such as") != std::string::npos;
+  return shows_an_example ? "" : " without a unit";
 }
 
 std::optional<std::vector<double>> read_values(const Attribute& attribute, std::string_view unit,
@@ -59,7 +60,7 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, std::
   if (!values) return {};
   std::vector<double> result;
   for (const Value& each : *values) {
-    if (const auto why = objection(each, unit)) return refuse(*why);
+    if (const auto why = objection(each, unit, values->size() > 1)) return refuse(*why);
     if (!std::isfinite(each.quantity.value)) return refuse(": it is out of range");
     result.push_back(each.quantity.value);
   }
@@ -158,17 +159,6 @@ std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
   if (*text == "yes" || *text == "true") return true;
   if (*text == "no" || *text == "false") return false;
   return Refusal(attribute, "yes or no", complaints)();
-}
-
-std::optional<std::vector<Value>> values_of(std::string_view text, const Location& start, const Scope& scope,
-                                            Complaints& complaints) {
-  std::optional<ValueMistake> mistake;
-  auto values = evaluate_pieces(text, start, scope, complaints, mistake);
-  if (mistake)
-    complaints.error(locate(start, mistake->at), "a number with its unit is wanted here, got " +
-                                                     quoted(text) +
-                                                     (mistake->reason.empty() ? "" : ": " + mistake->reason));
-  return values;
 }
 
 namespace {

@@ -41,9 +41,7 @@ std::optional<std::string> read_choice(const Attribute& attribute, const std::ve
 /// How a message names what a unit stands for: `a length such as "1 mm"`, `a plain number`.
 std::string wanted_by(std::string_view unit);
 
-// The same on a text that is no attribute (a parameter's value): values of any dimension.
-std::optional<std::vector<Value>> values_of(std::string_view text, const Location& start, const Scope& scope,
-                                            Complaints& complaints);
+/// read_text on a text that is no attribute (a parameter's value).
 std::optional<std::string> text_of(std::string_view text, const Location& start, const Scope& scope,
                                    Complaints& complaints);
 

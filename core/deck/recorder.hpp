@@ -151,9 +151,9 @@ class Recorder {
     number(left), number(right);
     if (left.dimension == right.dimension) return left.dimension;
     const Token& sign = sign_between(left, right);
-    throw ExpressionMistake(sign.at, "the two sides of '" + (sign.text == "," ? "," : sign.text) +
-                                         "' differ: the left is " + kind_of(left) + ", the right is " +
-                                         kind_of(right));
+    const std::string who = sign.text == "," ? "the arguments" : "the two sides of '" + sign.text + "'";
+    throw ExpressionMistake(
+        sign.at, who + " differ: the left is " + kind_of(left) + ", the right is " + kind_of(right));
   }
 
   Dimension powered(const Operand& base, const Operand& exponent) const {

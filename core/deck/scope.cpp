@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/base/text.hpp"
+#include "core/deck/deck.hpp"
+#include "core/deck/pieces.hpp"
 #include "core/deck/read.hpp"
 
 namespace beadwork {
@@ -82,8 +84,15 @@ std::optional<std::vector<Value>> Scope::values(std::string_view name, const Loc
   }
   const Entry* entry = start(name, asked_at, complaints);
   if (!entry) return {};
-  entry->values = values_of(entry->parameter.text, entry->parameter.text_at, *this, complaints);
+  const Parameter& parameter = entry->parameter;
+  std::optional<ValueMistake> mistake;
+  entry->values = evaluate_pieces(parameter.text, parameter.text_at, *this, complaints, mistake);
   running_.pop_back();
+  if (mistake)
+    complaints.error(locate(parameter.text_at, mistake->at),
+                     "parameter '" + parameter.name + "' is used as a quantity at " + asked_at.where() +
+                         ", but holds \"" + parameter.text + "\"" +
+                         (mistake->reason.empty() ? "" : ": " + mistake->reason));
   return *entry->values;
 }
 

@@ -39,11 +39,16 @@ class Lexer {
       else
         sign();
     }
-    if (!open_.empty()) throw ExpressionMistake(open_.back(), "this bracket is not closed");
+    if (!open_.empty()) throw ExpressionMistake(open_.back().at, "this bracket is not closed");
     return std::move(tokens_);
   }
 
  private:
+  struct Bracket {
+    std::size_t at;
+    bool is_call;  // of a function: commas may stand inside
+  };
+
   char peek(std::size_t ahead) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
   char here() const { return peek(0); }
   std::string_view rest() const { return text_.substr(std::min(at_, text_.size())); }
@@ -65,8 +70,6 @@ class Lexer {
     at_ = static_cast<std::size_t>(end - text_.data());
     if (error != std::errc() || !std::isfinite(value))
       throw ExpressionMistake(begin, "this number is out of range");
-    if (here() == ',' && is_digit(peek(1)) && open_.empty())
-      throw ExpressionMistake(at_, "decimals have a point, not a comma");
     const Unit unit = unit_behind(begin);
     const std::string_view spelt = text_.substr(begin, at_ - begin);
     push(
@@ -92,6 +95,8 @@ class Lexer {
         throw ExpressionMistake(at_, quoted(name) +
                                          " is both a unit and a name here: put blanks around the operator "
                                          "if you mean the name, or brackets around the number with its unit");
+    if (after.size() > 1 && (after[0] == '/' || after[0] == '*') && starts_name(after[1]))
+      check_later_unit(at_ + found->length + 1);
     if (after.starts_with('^'))
       throw ExpressionMistake(
           at_ + found->length,
@@ -115,6 +120,14 @@ class Lexer {
                                        quoted(text_.substr(number_begin, number_end - number_begin)) +
                                        " and " + quoted(name));
     throw ExpressionMistake(at_, why_no_unit(word));
+  }
+
+  /// "3 N/mmm": what follows the / without a blank must be a unit or a name that exists.
+  void check_later_unit(std::size_t begin) const {
+    std::size_t length = 0;
+    while (begin + length < text_.size() && inside_name(text_[begin + length])) ++length;
+    const std::string_view run = text_.substr(begin, length);
+    if (longest_known(run).empty()) throw ExpressionMistake(begin, why_no_unit(run));
   }
 
   // ---- Names
@@ -179,12 +192,13 @@ class Lexer {
                               quoted(function) + " is a function: write " + std::string(function) + "(...)");
     const std::string_view first = run.substr(0, run.find('-'));
     if (followed_by_bracket(first.size())) throw ExpressionMistake(at_, "no function " + quoted(first));
-    if (find_unit(first))
-      throw ExpressionMistake(
-          at_, quoted(first) + " is a unit and needs a number before it: 1 " + std::string(first));
     std::vector<std::string> names = scope_.names();
     for (const Variable& each : variables_) names.push_back(each.name);
-    const std::string_view meant = closest(run, names).empty() ? first : run;
+    const bool whole_is_near = !closest(run, names).empty(), first_is_near = !closest(first, names).empty();
+    const std::string_view meant = whole_is_near ? run : first;
+    if (!whole_is_near && !first_is_near && find_unit(first))
+      throw ExpressionMistake(at_, "no parameter " + quoted(first) + "; a unit needs a number before it: 1 " +
+                                       std::string(first));
     throw ExpressionMistake(at_, "no parameter " + quoted(meant) + did_you_mean(meant, names));
   }
 
@@ -193,18 +207,21 @@ class Lexer {
   void sign() {
     for (const std::string_view two : {"${", "<=", ">=", "==", "!=", "&&", "||"})
       if (rest().starts_with(two)) {
-        if (two == "${") open_.push_back(at_);
+        if (two == "${") open_.push_back({at_, false});
         return push({Token::Kind::sign, two == "${" ? "(" : std::string(two), at_, 2});
       }
     const char c = here();
-    if (c == '(') open_.push_back(at_);
+    const bool is_call = !tokens_.empty() && tokens_.back().kind == Token::Kind::function;
+    if (c == '(') open_.push_back({at_, is_call});
+    if (c == ',' && (open_.empty() || !open_.back().is_call))
+      throw ExpressionMistake(at_, "a comma cannot stand here; decimals have a point");
     if (c == ')' || c == '}') close(c);
     if (std::string_view("+-*/^<>(),}").find(c) == std::string_view::npos) refuse_sign(c);
     push({Token::Kind::sign, std::string(1, c == '}' ? ')' : c), at_, 1});
   }
 
   void close(char c) {
-    if (open_.empty() || (text_[open_.back()] == '$') != (c == '}'))
+    if (open_.empty() || (text_[open_.back().at] == '$') != (c == '}'))
       throw ExpressionMistake(at_, std::string("no bracket is open that '") + c + "' could close");
     open_.pop_back();
   }
@@ -223,7 +240,7 @@ class Lexer {
   const Scope& scope_;
   std::span<const Variable> variables_;
   std::size_t at_ = 0;
-  std::vector<std::size_t> open_;
+  std::vector<Bracket> open_;
   std::vector<Token> tokens_;
 };
 

@@ -1,0 +1,215 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/deck/expression.hpp"
+#include "core/deck/scope.hpp"
+
+namespace beadwork {
+namespace {
+
+using testing::HasSubstr;
+
+/// An expression over x (a length), n (a number) and the parameters that a test adds.
+class AnExpression : public testing::Test {
+ protected:
+  void parameter(const std::string& name, const std::string& text) {
+    scope.add({name, text, place(name), place(text)}, complaints);
+  }
+
+  static Location place(const std::string& text) {
+    return {std::make_shared<const Source>(Source{"deck.xml", text}), 1, 1};
+  }
+
+  std::optional<Expression> compile(const std::string& text) {
+    return Expression::compile(text, place(text), scope, variables, complaints);
+  }
+
+  double value(const std::string& text, double x = 0.002, double n = 3) {
+    const auto expression = compile(text);
+    EXPECT_TRUE(expression) << text << "\n" << complaints.text();
+    return expression ? expression->evaluate(std::vector<double>{x, n}) : 0;
+  }
+
+  std::string unit(const std::string& text) {
+    const auto expression = compile(text);
+    EXPECT_TRUE(expression) << text << "\n" << complaints.text();
+    return expression ? expression->dimension().name() : "";
+  }
+
+  /// The only complaint about a text, as "column: message".
+  std::string complaint(const std::string& text) {
+    Complaints fresh;
+    EXPECT_FALSE(Expression::compile(text, place(text), scope, variables, fresh)) << text;
+    const std::string all = fresh.text(), start = "deck.xml:1:", infix = ": error: ";
+    const std::string first = all.substr(0, all.find('\n'));
+    EXPECT_EQ(fresh.errors(), 1) << all;
+    EXPECT_TRUE(first.starts_with(start)) << first;
+    const std::size_t colon = first.find(infix);
+    return first.substr(start.size(), colon - start.size()) + ": " + first.substr(colon + infix.size());
+  }
+
+  Complaints complaints;
+  Scope scope;
+  std::vector<Variable> variables{{"x", find_unit("m")->dimension}, {"n", {}}};
+};
+
+TEST_F(AnExpression, calculates_with_the_precedence_of_mathematics) {
+  EXPECT_EQ(value("1 + 2*3"), 7);
+  EXPECT_EQ(value("(1 + 2)*3"), 9);
+  EXPECT_EQ(value("8/4/2"), 1);
+  EXPECT_EQ(value("5 - 3 - 1"), 1);
+  EXPECT_EQ(value("2^3^2"), 512);
+  EXPECT_EQ(value("-2^2"), -4);
+  EXPECT_EQ(value("2^-1"), 0.5);
+  EXPECT_EQ(value("2*-n + -n - -n"), -6);
+  EXPECT_EQ(value("1e-3 + 1.5E+1"), 15.001);
+}
+
+TEST_F(AnExpression, calculates_with_quantities_and_knows_their_dimension) {
+  EXPECT_EQ(value("x + 13.5 mm"), 0.002 + 13.5e-3);
+  EXPECT_EQ(value("2*x"), 0.004);
+  EXPECT_EQ(unit("25 MPa * (2 mm)^2"), "N");
+  EXPECT_EQ(unit("0.5 N/mm / x"), "Pa");
+  EXPECT_EQ(unit("x/(1 mm)"), "1");
+  EXPECT_EQ(unit("3mm"), "m");
+  EXPECT_EQ(value("10 mm-2 mm"), 0.008);
+  EXPECT_EQ(value("3 mm^2"), 3e-6);
+  EXPECT_DOUBLE_EQ(value("(3 mm)^2"), 9e-6);
+  EXPECT_EQ(value("50 percent * 4"), 2);
+}
+
+TEST_F(AnExpression, has_functions_that_follow_the_dimension) {
+  EXPECT_EQ(value("sqrt(x*x)"), 0.002);
+  EXPECT_EQ(unit("sqrt(x)"), "m^0.5");
+  EXPECT_EQ(unit("abs(-x)"), "m");
+  EXPECT_EQ(value("min(x, 1 mm, 3 mm)"), 0.001);
+  EXPECT_EQ(value("max(x, 1 mm)"), 0.002);
+  EXPECT_EQ(value("if(x < 3 mm, x, 0 m)"), 0.002);
+  EXPECT_EQ(value("if(x > 3 mm, x, 0 m)"), 0);
+  EXPECT_DOUBLE_EQ(value("sin(pi/6) + cos(60 degree)"), 1);
+  EXPECT_DOUBLE_EQ(value("log(exp(n)) + ln(exp(1)) + log10(100)"), 6);
+  EXPECT_EQ(value("floor(2.5) + ceil(2.5) + round(2.6) + sign(-x)"), 7);
+  EXPECT_DOUBLE_EQ(value("atan2(x, x) + atan(1) + asin(0) + acos(1) + tan(0)"), std::numbers::pi / 2);
+}
+
+TEST_F(AnExpression, may_be_a_condition) {
+  ASSERT_TRUE(compile("x < 13.5 mm"));
+  EXPECT_TRUE(compile("x < 13.5 mm")->is_condition());
+  EXPECT_FALSE(compile("x")->is_condition());
+  for (const char* is_true :
+       {"x < 3 mm and n == 3", "x >= 2 mm && n != 2", "not x > 3 mm", "n <= 3 or n > 10",
+        "not (n < 1 || n > 5)", "n < 1 or n > 2 and x > 1 mm", "if(n > 1, x < 1 m, n > 5)"})
+    EXPECT_EQ(value(is_true), 1) << is_true;
+  for (const char* is_false : {"x < 1 mm", "n == 3 and x > 1 m", "not n == 3 and n == 3"})
+    EXPECT_EQ(value(is_false), 0) << is_false;
+}
+
+TEST_F(AnExpression, takes_names_of_parameters_with_dots_and_hyphens) {
+  parameter("epoxy.radius-ratio", "0.25");
+  parameter("a", "7");
+  parameter("b", "2");
+  parameter("a-b", "100");
+  EXPECT_EQ(value("epoxy.radius-ratio*2"), 0.5);
+  EXPECT_EQ(value("epoxy.radius-ratio-1"), -0.75);
+  EXPECT_EQ(value("a-b"), 100);  // the longest name wins
+  EXPECT_EQ(value("a - b"), 5);
+  EXPECT_EQ(value("b-a"), -5);
+  EXPECT_EQ(value("n-a"), -4);
+  EXPECT_EQ(value("${a} + ${b - 1}"), 8);
+}
+
+TEST_F(AnExpression, refuses_to_add_or_compare_what_has_another_dimension) {
+  EXPECT_EQ(complaint("x + n"),
+            "3: the two sides of '+' differ: the left is in m, the right is a plain number");
+  EXPECT_EQ(complaint("x < 3"),
+            "3: the two sides of '<' differ: the left is in m, the right is a plain number");
+  EXPECT_EQ(complaint("x > 0"),
+            "3: the two sides of '>' differ: the left is in m, the right is a plain number");
+  EXPECT_EQ(complaint("(1 + n)*(x - 25 MPa)"),
+            "12: the two sides of '-' differ: the left is in m, the right is in Pa");
+  EXPECT_EQ(complaint("max(x, 2)"), "6: the arguments differ: the left is in m, the right is a plain number");
+}
+
+TEST_F(AnExpression, is_checked_in_the_branch_that_is_not_taken_too) {
+  EXPECT_THAT(complaint("if(1 < 2, x, n)"), HasSubstr("the arguments differ"));
+  EXPECT_THAT(complaint("if(1 < 2, x, x + n)"), HasSubstr("'+' differ"));
+  EXPECT_THAT(complaint("n < 1 and x < 1"), HasSubstr("'<' differ"));
+}
+
+TEST_F(AnExpression, refuses_functions_and_powers_that_make_no_sense) {
+  EXPECT_EQ(complaint("n + sin(x)"), "9: this function wants a plain number, this is in m");
+  EXPECT_EQ(complaint("2^x"), "3: an exponent wants a plain number, this is in m");
+  EXPECT_EQ(complaint("x^n"), "3: the exponent of a quantity with a unit must be the same everywhere");
+  EXPECT_THAT(complaint("1 < n < 3"), HasSubstr("join conditions with and"));
+  EXPECT_THAT(complaint("n and x < 1 m"), HasSubstr("this is a plain number"));
+}
+
+TEST_F(AnExpression, points_at_the_misspelt_name_with_a_suggestion) {
+  parameter("side", "28 um");
+  EXPECT_EQ(complaint("2*sied"), "3: no parameter 'sied'. Did you mean 'side'?");
+  EXPECT_EQ(complaint("x < 13.5 mmm"), "10: unknown unit \"mmm\". Did you mean \"mm\"?");
+  EXPECT_EQ(complaint("x < 3 N/mmm"), "9: unknown unit \"mmm\". Did you mean \"mm\"?");
+  EXPECT_EQ(complaint("x < mm"), "5: no parameter 'mm'; a unit needs a number before it: 1 mm");
+  EXPECT_EQ(complaint("squirt(x)"), "1: no function 'squirt'");
+}
+
+TEST_F(AnExpression, points_at_what_is_wrong_in_the_grammar) {
+  EXPECT_EQ(complaint("n + "), "5: the expression ends too early");
+  EXPECT_EQ(complaint("* n"), "1: an operator cannot stand here");
+  EXPECT_EQ(complaint("n n"), "3: an operator is missing before this");
+  EXPECT_EQ(complaint("2 n"), "3: an operator is missing between '2' and 'n'");
+  EXPECT_EQ(complaint("2*(n"), "3: this bracket is not closed");
+  EXPECT_EQ(complaint("n)"), "2: no bracket is open that ')' could close");
+  EXPECT_EQ(complaint("0,3"), "2: a comma cannot stand here; decimals have a point");
+  EXPECT_EQ(complaint("(0,3)"), "3: a comma cannot stand here; decimals have a point");
+  EXPECT_EQ(complaint(""), "1: an expression is wanted here");
+  EXPECT_THAT(complaint("sqrt(n, n)"), HasSubstr("too many arguments"));
+  EXPECT_THAT(complaint("if(n > 1, 2)"), HasSubstr("too few arguments"));
+  EXPECT_THAT(complaint("n = 3"), HasSubstr("write =="));
+  EXPECT_THAT(complaint("n > 1 ? 2 : 3"), HasSubstr("write if("));
+  EXPECT_THAT(complaint("1e999"), HasSubstr("out of range"));
+  EXPECT_THAT(complaint("3 mm^n"), HasSubstr("write (3 mm)^"));
+  EXPECT_THAT(complaint(std::string(5000, '(')), HasSubstr("longer than"));
+}
+
+TEST_F(AnExpression, asks_back_where_a_name_is_both_a_unit_and_a_parameter) {
+  parameter("t", "2 mm");
+  EXPECT_THAT(complaint("10 mm/t"), HasSubstr("both a unit and a name"));
+  EXPECT_EQ(value("10 mm / t"), 5);
+}
+
+TEST_F(AnExpression, asks_back_where_a_parameter_hides_behind_a_variable) {
+  parameter("n", "2");
+  EXPECT_THAT(complaint("n + 1"), HasSubstr("rename the parameter"));
+}
+
+TEST_F(AnExpression, gives_the_column_behind_entities_and_line_ends) {
+  const std::string text = "n &gt; 1 and\n  x";
+  EXPECT_FALSE(Expression::compile("n > 1 and\n  x", place(text), scope, variables, complaints));
+  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:3: "));
+}
+
+TEST_F(AnExpression, tells_a_nan_instead_of_calling_it_false) {
+  EXPECT_TRUE(std::isnan(value("sqrt(-n) < 1")));
+  EXPECT_TRUE(std::isnan(value("not sqrt(-n) < 1")));
+  EXPECT_TRUE(std::isnan(value("min(1, sqrt(-n))")));
+  EXPECT_TRUE(std::isinf(value("1/(n - n)")));
+  EXPECT_EQ(value("if(n > 0, 1, sqrt(-n))"), 1);  // the branch that is not taken does no harm
+}
+
+TEST_F(AnExpression, says_on_which_variables_it_depends) {
+  EXPECT_TRUE(compile("2*x")->uses(0));
+  EXPECT_FALSE(compile("2*x")->uses(1));
+}
+
+TEST_F(AnExpression, of_any_length_is_evaluated) {
+  std::string sum = "n";
+  for (int i = 0; i < 500; ++i) sum += " + n";
+  EXPECT_EQ(value(sum), 501 * 3);
+}
+
+}  // namespace
+}  // namespace beadwork
