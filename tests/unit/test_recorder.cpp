@@ -1,0 +1,328 @@
+// The record of a run: what a frame holds, and that run.h5 can be read at any moment, whatever stopped the run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+
+#include "core/io/dataset.hpp"
+#include "core/io/frame_reader.hpp"
+#include "core/io/recorder.hpp"
+#include "tests/support/bonded_bar.hpp"
+#include "tests/support/scratch.hpp"
+
+using namespace beadwork;
+using namespace beadwork::testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+namespace {
+
+const RunMeta about_the_run = {"bar", "<scene/>", "<scene resolved=\"yes\"/>", "5e88", "0.1.0", {"bond/spring 0.1.0 lib.so"}, 2, 7, "{\"Z\": 6.2}"};
+
+/// A run that records a bar, as the loop does.
+struct Recording {
+  RunFolder folder;
+  Domain domain;
+  Recorder recorder;
+
+  explicit Recording(const fs::path& root, Index count = 200, Recorder::Options options = {})
+      : folder(RunFolder::fresh(root, true)), recorder((declare_bar(domain), fill_bar(domain, count),
+                                                        Recorder::fresh(folder, about_the_run, options, domain))) {}
+
+  FrameRequest request() {
+    const BondTable& resin = *domain.families()[0];
+    return {{&domain.elements().column("velocity"), &domain.elements().column("orientation")},
+            {{&resin, "cohesive-beam", {&resin.rows().column("damage"), &resin.rows().column("stretch")}}},
+            false};
+  }
+  void frame(std::int64_t step) { recorder.write({step, 1e-7 * static_cast<Real>(step), 0}, request(), domain); }
+  void go_on_from(std::int64_t step) {
+    auto& breaks = domain.breaks().breaks;
+    std::erase_if(breaks, [&](const Break& b) { return b.step > step; });
+    recorder = Recorder::resume(folder, about_the_run, {}, domain, step);
+  }
+};
+
+std::vector<std::int64_t> steps_of(const fs::path& record) {
+  std::vector<std::int64_t> steps;
+  const record::FrameReader reader(record);
+  EXPECT_EQ(reader.unreadable_frames(), 0);
+  for (const record::FrameHead& head : reader.frames()) {
+    EXPECT_NO_THROW(reader.read(head)) << head.name;
+    steps.push_back(head.step);
+  }
+  return steps;
+}
+
+fs::path folder_of(const Recording& run, const std::string& name) { return run.folder.root() / name; }
+
+}  // namespace
+
+TEST(Recorder, a_record_says_what_was_run_before_it_has_a_frame) {
+  const Scratch scratch;
+  const Recording run(scratch / "out");
+  EXPECT_EQ(read_dataset_text(run.folder.record(), "meta/deck"), "<scene/>");
+  EXPECT_EQ(read_dataset_text(run.folder.record(), "meta/plugins"), "bond/spring 0.1.0 lib.so");
+  EXPECT_EQ(read_dataset_text(run.folder.record(), "meta/packing"), "{\"Z\": 6.2}");
+  EXPECT_TRUE(steps_of(run.folder.record()).empty());
+  EXPECT_FALSE(fs::exists(run.folder.view()));  // ParaView cannot open a series of nothing
+}
+
+TEST(Recorder, a_frame_holds_the_columns_that_were_asked_for_with_their_units) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  run.frame(300);
+  const auto velocity = read_dataset(run.folder.record(), "frames/000000000300/elements/velocity");
+  EXPECT_THAT(velocity.extent, ElementsAre(200u, 3u));
+  EXPECT_EQ(velocity.unit, "m/s");
+  EXPECT_EQ(velocity.long_name, "Velocity of the centre");
+  const auto stretched = read_dataset(run.folder.record(), "frames/000000000300/bonds/resin/stretch");
+  EXPECT_THAT(stretched.extent, ElementsAre(199u, 3u));
+  const auto expected_velocity = run.domain.elements().column("velocity").view<Vec3>();
+  const auto expected_stretch = run.domain.families()[0]->rows().column("stretch").view<Vec3>();
+  for (Index row = 0; row < 199; ++row)
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(velocity.numbers[static_cast<std::size_t>(3 * row + c)], expected_velocity.at(row, c));
+      EXPECT_EQ(stretched.numbers[static_cast<std::size_t>(3 * row + c)], expected_stretch.at(row, c));
+    }
+  EXPECT_THROW(read_dataset(run.folder.record(), "frames/000000000300/elements/force"), MachineFailure);
+  EXPECT_THROW(read_dataset(run.folder.record(), "frames/000000000300/bonds/interface/id"), MachineFailure);
+}
+
+TEST(Recorder, the_report_reads_what_was_recorded) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  break_some(run.domain, 0, 50, 90);
+  FrameRequest request = run.request();
+  request.picture = true;
+  run.recorder.write({100, 2e-6, 1}, request, run.domain);
+  const record::FrameReader reader(run.folder.record());
+  ASSERT_EQ(reader.frames().size(), 1u);
+  EXPECT_EQ(reader.frames()[0].time, 2e-6);
+  EXPECT_TRUE(reader.frames()[0].picture);
+  const record::Frame frame = reader.read(reader.frames()[0]);
+  ASSERT_EQ(frame.bonds.size(), 1u);
+  EXPECT_EQ(frame.bonds[0].law, "cohesive-beam");
+  EXPECT_EQ(frame.bonds[0].state[0], State::broken);
+  EXPECT_EQ(frame.bonds[0].state[3], State::softening);
+  EXPECT_EQ(frame.bonds[0].ends[5][1], 6);
+  EXPECT_EQ(frame.radius[9], 0.5e-3 + 9e-5);
+  EXPECT_EQ(reader.sets().at("left").size(), 20u);
+  EXPECT_EQ(reader.breaks().time.size(), 4u);
+  EXPECT_EQ(reader.breaks().family[0], "resin");
+  EXPECT_EQ(reader.breaks().mode[0], "shear");
+}
+
+TEST(Recorder, two_requests_in_one_step_make_one_frame_with_the_columns_of_both) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  const BondTable& other = *run.domain.families()[1];
+  run.recorder.write({100, 1e-6, 0}, {{&run.domain.elements().column("velocity")}, {}, true}, run.domain);
+  run.recorder.write({100, 1e-6, 0}, {{&run.domain.elements().column("force")}, {{&other, "", {}}}, false}, run.domain);
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(100));
+  for (const char* name : {"elements/velocity", "elements/force", "bonds/interface/state"})
+    EXPECT_NO_THROW(read_dataset(run.folder.record(), std::string("frames/000000000100/") + name)) << name;
+  EXPECT_TRUE(record::FrameReader(run.folder.record()).frames()[0].picture);
+}
+
+TEST(Recorder, a_finished_record_is_one_file_that_needs_no_other) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  for (const int step : {0, 100, 200}) run.frame(step);
+  std::string reason;
+  ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+  EXPECT_FALSE(fs::exists(run.folder.frames()));
+  fs::rename(run.folder.record(), scratch / "elsewhere.h5");
+  EXPECT_THAT(steps_of(scratch / "elsewhere.h5"), ElementsAre(0, 100, 200));
+  EXPECT_EQ(read_dataset_text(scratch / "elsewhere.h5", "meta/name"), "bar");
+  EXPECT_THROW(run.frame(300), std::logic_error);
+}
+
+TEST(Recorder, a_resumed_record_drops_the_frames_after_the_checkpoint) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  for (const int step : {0, 100, 200, 300}) run.frame(step);
+  run.go_on_from(150);
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100));
+  EXPECT_FALSE(fs::exists(folder_of(run, "frames/000000000300.h5")));
+  run.frame(200);
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100, 200));
+}
+
+TEST(Recorder, a_resumed_record_drops_the_breaks_after_the_checkpoint) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  break_some(run.domain, 0, 50, 90);
+  break_some(run.domain, 0, 30, 190);
+  run.frame(200);
+  ASSERT_GT(record::FrameReader(run.folder.record()).breaks().time.size(), 4u);
+  run.go_on_from(100);
+  EXPECT_EQ(record::FrameReader(run.folder.record()).breaks().time.size(), 4u);
+}
+
+TEST(Recorder, a_finished_record_can_be_continued_without_copying_it) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  for (const int step : {0, 100, 200}) run.frame(step);
+  std::string reason;
+  ASSERT_TRUE(run.recorder.consolidate(run.domain, reason));
+  const auto size = fs::file_size(run.folder.record());
+  run.go_on_from(100);
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100));
+  EXPECT_EQ(fs::file_size(folder_of(run, "frames/consolidated-0.h5")), size);
+  EXPECT_LT(fs::file_size(run.folder.record()), size / 2);
+  run.frame(200);
+  run.frame(300);
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100, 200, 300));
+  ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+  EXPECT_FALSE(fs::exists(run.folder.frames()));
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100, 200, 300));
+}
+
+TEST(Recorder, a_record_can_be_finished_and_continued_again_and_again) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  std::vector<std::int64_t> expected;
+  for (std::int64_t step = 0; step < 500; step += 100) {
+    run.frame(step);
+    expected.push_back(step);
+    if (step % 200 == 0) {
+      std::string reason;
+      ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+    }
+    run.go_on_from(step);
+    EXPECT_EQ(steps_of(run.folder.record()), expected);
+  }
+}
+
+TEST(Recorder, the_log_of_breaks_is_up_to_date_without_a_frame) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  run.frame(0);
+  break_some(run.domain, 1, 40, 90);
+  run.recorder.write_breaks(run.domain);
+  EXPECT_THAT(record::FrameReader(run.folder.record()).breaks().family, ElementsAre("interface", "interface", "interface"));
+  EXPECT_EQ(read_dataset(run.folder.record(), "breaks/energy").unit, "J");
+  EXPECT_THAT(read_dataset(run.folder.record(), "breaks/place").extent, ElementsAre(3u, 3u));
+}
+
+TEST(Recorder, single_precision_takes_half_the_room_and_rounds) {
+  const Scratch scratch;
+  Recording whole(scratch / "double", 2000), single(scratch / "single", 2000, {true, 0});
+  whole.frame(0);
+  single.frame(0);
+  const std::string name = "frames/000000000000/elements/velocity";
+  const auto a = read_dataset(whole.folder.record(), name), b = read_dataset(single.folder.record(), name);
+  for (std::size_t i = 0; i < a.numbers.size(); ++i) EXPECT_EQ(b.numbers[i], static_cast<Real>(static_cast<float>(a.numbers[i])));
+  const std::string file = "frames/000000000000.h5";
+  EXPECT_LT(fs::file_size(folder_of(single, file)), 0.7 * static_cast<Real>(fs::file_size(folder_of(whole, file))));
+}
+
+TEST(Recorder, packed_numbers_are_the_same_numbers) {
+  const Scratch scratch;
+  Recording plain(scratch / "plain", 2000), packed(scratch / "packed", 2000, {false, 4});
+  plain.frame(0);
+  packed.frame(0);
+  for (const char* name : {"elements/position", "bonds/resin/ends", "bonds/resin/state"}) {
+    const std::string full = std::string("frames/000000000000/") + name;
+    EXPECT_EQ(read_dataset(plain.folder.record(), full).numbers, read_dataset(packed.folder.record(), full).numbers) << name;
+  }
+  const std::string file = "frames/000000000000.h5";
+  EXPECT_LT(fs::file_size(folder_of(packed, file)), fs::file_size(folder_of(plain, file)));
+}
+
+TEST(Recorder, the_view_for_paraview_names_datasets_that_are_there_with_their_extents) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  run.frame(0);
+  run.frame(100);
+  std::string reason;
+  for (const bool finished : {false, true}) {
+    if (finished) {
+      ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+    }
+    const std::string text = text_of(run.folder.view());
+    const std::regex item("Dimensions=\"([0-9]+)( ([0-9]+))?\"[^>]*>run.h5:([^<]*)<");
+    int count = 0;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), item); it != std::sregex_iterator(); ++it, ++count) {
+      std::vector<std::size_t> extent{std::stoul((*it)[1])};
+      if ((*it)[3].matched) extent.push_back(std::stoul((*it)[3]));
+      EXPECT_EQ(read_dataset(run.folder.record(), (*it)[4]).extent, extent) << (*it)[4];
+    }
+    EXPECT_EQ(count, 2 * (5 + 6));  // two frames: five columns on elements; five on bonds and their centres
+  }
+}
+
+TEST(Recorder, a_family_without_bonds_is_recorded_and_left_out_of_the_view) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  const BondTable& later = run.domain.add_family("later");
+  run.recorder.write({0, 0, 0}, {{}, {{&later, "", {}}}, false}, run.domain);
+  EXPECT_THAT(read_dataset(run.folder.record(), "frames/000000000000/bonds/later/ends").extent, ElementsAre(0u, 2u));
+  EXPECT_THAT(text_of(run.folder.view()), ::testing::Not(HasSubstr("later")));
+}
+
+TEST(Recorder, a_kill_at_any_moment_leaves_a_record_that_can_be_read_and_continued) {
+  const Scratch scratch;
+  Recording run(scratch / "out", 3000);
+  std::int64_t newest = 0;
+  run.frame(newest);
+  for (unsigned trial = 0; trial < 30; ++trial) {
+    kill_during(
+        [&] {
+          run.go_on_from(newest);
+          std::string reason;
+          for (std::int64_t step = newest + 1;; ++step) {
+            run.frame(step);
+            if (step % 3 != 0) continue;
+            run.recorder.consolidate(run.domain, reason);
+            run.go_on_from(step);
+          }
+        },
+        5000 + 4000 * trial);
+    const auto steps = steps_of(run.folder.record());
+    ASSERT_GE(steps.size(), static_cast<std::size_t>(newest) + 1) << "trial " << trial;
+    for (std::size_t i = 0; i < steps.size(); ++i) ASSERT_EQ(steps[i], static_cast<std::int64_t>(i)) << "trial " << trial;
+    newest = steps.back();
+  }
+  EXPECT_GT(newest, 5) << "the kills came before anything was written";
+}
+
+TEST(Recorder, a_full_disk_is_named_and_leaves_the_frames_before) {
+  const SmallDisk disk(4 << 20);
+  if (!disk.there()) GTEST_SKIP() << "only root may mount a small disk";
+  Recording run(disk.path() / "out", 3000);
+  run.frame(0);
+  disk.fill_but(50000);
+  const auto said = message_of<MachineFailure>([&] { run.frame(100); });
+  EXPECT_THAT(said, HasSubstr("No space left on device"));
+  EXPECT_THAT(said, HasSubstr("000000000100.h5"));
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0));
+}
+
+TEST(Recorder, a_disk_too_full_for_one_file_leaves_the_linked_frames) {
+  const SmallDisk disk(4 << 20);
+  if (!disk.there()) GTEST_SKIP() << "only root may mount a small disk";
+  Recording run(disk.path() / "out", 3000);
+  for (const int step : {0, 100, 200}) run.frame(step);
+  disk.fill_but(300000);
+  std::string reason;
+  EXPECT_FALSE(run.recorder.consolidate(run.domain, reason));
+  EXPECT_THAT(reason, HasSubstr("No space left on device"));
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100, 200));
+  fs::remove(disk.path() / "filler");
+  EXPECT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100, 200));
+}
+
+TEST(Recorder, a_damaged_frame_is_named_when_the_run_is_continued) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  run.frame(0);
+  write_text(folder_of(run, "frames/000000000000.h5"), "not a frame");
+  const auto said = message_of<MachineFailure>([&] { run.go_on_from(100); });
+  EXPECT_THAT(said, HasSubstr("frames/000000000000.h5"));
+  EXPECT_THAT(said, HasSubstr("Remove"));
+}
