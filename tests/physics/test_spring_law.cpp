@@ -1,0 +1,57 @@
+#include "core/mechanics/spring.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "core/mechanics/spring_stiffness.hpp"
+#include "tests/support/mechanics.hpp"
+
+namespace beadwork {
+namespace {
+
+using namespace test;
+
+TEST(spring, pulls_along_the_line_of_centres_by_the_gradient_of_its_energy) {
+  Random random(1);
+  const SpringRest<Real> rest{0.8, 3};
+  const Pair p{random_vector(random, 1), random_vector(random, 1), identity(), identity()};
+  const Vector12 expected = -gradient([&](const Pair& at) { return spring_energy(rest, at.d()); }, p, 1e-4);
+  const Vec3 f = spring_force(rest, p.d());
+  EXPECT_LT((f - Vec3(expected.segment<3>(6))).norm(), 1e-9 * f.norm());
+  EXPECT_LT((f + Vec3(expected.segment<3>(0))).norm(), 1e-9 * f.norm());
+  EXPECT_LT(cross<Real>(f, p.d()).norm(), 1e-15 * f.norm() * p.d().norm());
+}
+
+TEST(spring, its_stiffness_is_the_derivative_of_its_force) {
+  Random random(2);
+  const SpringRest<Real> rest{0.8, 3};
+  const Pair p{Vec3(0, 0, 0), Vec3(0.7, -0.5, 0.3), identity(), identity()};
+  struct Forces {
+    Vec3 force, torque1, torque2;
+  };
+  const Matrix12 expected = -jacobian(
+      [&](const Pair& at) {
+        return generalised(Forces{spring_force(rest, at.d()), zero<Vec3>(), zero<Vec3>()});
+      },
+      p);
+  EXPECT_LT((spring_stiffness(rest, p.d(), true) - expected).norm(), 1e-9 * expected.norm());
+}
+
+// 90, 99 and 99.9 % overlap, and spacings that vary: the row of pearls has the stiffness E S / L of its
+// fibre.
+TEST(spring, a_row_of_any_spacing_has_the_stiffness_of_its_fibre) {
+  const Real E = 86.9e9, R = 5e-6, S = std::numbers::pi * R * R;
+  for (const Real overlap : {0., 0.9, 0.99, 0.999}) {
+    Real length = 0, compliance = 0;
+    for (int i = 0; i < 24; ++i) {
+      const Real spacing = 2 * R * (1 - overlap) * (1 + 0.5 * std::sin(i));
+      length += spacing;
+      compliance += 1 / fibre_spring(spacing, E, R).axial;
+    }
+    EXPECT_NEAR(1 / compliance, E * S / length, 1e-13 * E * S / length) << overlap;
+  }
+}
+
+}  // namespace
+}  // namespace beadwork
