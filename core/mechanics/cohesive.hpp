@@ -59,6 +59,29 @@ T dissipated_per_area(const Softening<T>& law, Same<T> history) {
   return fracture_energy(law) * max(T(0), share);
 }
 
+/// u_p = 2 G / sigma, from Eq (5) [m].
+inline Real final_opening(Real strength, Real energy) { return 2 * energy / strength; }
+
+// A deck gives strength [Pa] and energy G [J/m^2], and exactly one more number, which fixes where damage
+// starts.
+
+inline Softening<Real> softening_by_onset(Real strength, Real energy, Real onset) {
+  return {strength / onset, onset, final_opening(strength, energy)};
+}
+inline Softening<Real> softening_by_stiffness(Real strength, Real energy, Real stiffness) {
+  return {stiffness, strength / stiffness, final_opening(strength, energy)};
+}
+/// ratio = u_e / u_p.
+inline Softening<Real> softening_by_ratio(Real strength, Real energy, Real ratio) {
+  return softening_by_onset(strength, energy, ratio * final_opening(strength, energy));
+}
+
+/// Whether these numbers are a law at all: 0 < u_e < u_p, with a finite stiffness above 0.
+inline bool is_softening(const Softening<Real>& law) {
+  return law.stiffness > 0 && std::isfinite(law.stiffness) && law.onset > 0 && law.onset < law.open &&
+         std::isfinite(law.open);
+}
+
 /// Area of a contact between elements of like size: pi ((R1+R2)/2)^2.
 inline Real contact_area(Real radius1, Real radius2) {
   const Real mean = 0.5 * (radius1 + radius2);
