@@ -77,7 +77,7 @@ void ElasticNetwork::link() const {
 
 void ElasticNetwork::multiply(std::span<const Real> x, std::span<Real> y) const {
   if (start_.empty()) link();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (elements_ > 1024)
   for (Index i = 0; i < elements_; ++i) {
     std::array<Real, 6> sum{};
     for (std::int64_t k = start_[at(i)]; k < start_[at(i) + 1]; ++k) {
@@ -233,7 +233,7 @@ HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility) 
   // The Frobenius norm is never below the eigenvalue: solve from the largest down, and stop when none can
   // beat the best.
   std::vector<Real> norms(at(network.bonds()));
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (network.bonds() > 1024)
   for (Index b = 0; b < network.bonds(); ++b) norms[at(b)] = shared(b, network.stiffness(b)).norm();
   std::vector<Index> order(norms.size());
   std::iota(order.begin(), order.end(), 0);
