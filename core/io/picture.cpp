@@ -25,25 +25,45 @@ Color shaded(Color base, float nx, float ny, float nz) {
   return {channel(base.red), channel(base.green), channel(base.blue)};
 }
 
-/// Mean over a running window of 2*reach+1 entries of a line, `stride` apart; sums in double so that order is fixed.
-void blur_line(const std::vector<float>& in, std::vector<float>& out, std::size_t first, std::size_t stride,
-               int count, int reach) {
-  double sum = 0;
+/// Mean over a running window of 2*reach+1 pixels, along the rows; sums in double, in one order.
+void blur_across(const std::vector<float>& in, std::vector<float>& out, int width, int height, int reach) {
+  for (int y = 0; y < height; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+    const auto at = [&](int x) { return static_cast<double>(in[first + static_cast<std::size_t>(x)]); };
+    double sum = 0;
+    int inside = 0;
+    for (int x = 0; x < std::min(reach, width); ++x, ++inside) sum += at(x);
+    for (int x = 0; x < width; ++x) {
+      if (x + reach < width) sum += at(x + reach), ++inside;
+      if (x > reach) sum -= at(x - reach - 1), --inside;
+      out[first + static_cast<std::size_t>(x)] = static_cast<float>(sum / inside);
+    }
+  }
+}
+
+/// The same along the columns, all of them at once, so that memory is read row by row.
+void blur_down(const std::vector<float>& in, std::vector<float>& out, int width, int height, int reach) {
+  const auto columns = static_cast<std::size_t>(width);
+  std::vector<double> sums(columns, 0);
   int inside = 0;
-  const auto at = [&](int i) { return first + static_cast<std::size_t>(i) * stride; };
-  for (int i = 0; i < std::min(reach, count); ++i, ++inside) sum += static_cast<double>(in[at(i)]);
-  for (int i = 0; i < count; ++i) {
-    if (i + reach < count) sum += static_cast<double>(in[at(i + reach)]), ++inside;
-    if (i - reach - 1 >= 0) sum -= static_cast<double>(in[at(i - reach - 1)]), --inside;
-    out[at(i)] = static_cast<float>(sum / inside);
+  const auto add = [&](int y, double sign) {
+    const float* row = in.data() + static_cast<std::size_t>(y) * columns;
+    for (std::size_t x = 0; x < columns; ++x) sums[x] += sign * static_cast<double>(row[x]);
+    inside += sign > 0 ? 1 : -1;
+  };
+  for (int y = 0; y < std::min(reach, height); ++y) add(y, 1);
+  for (int y = 0; y < height; ++y) {
+    if (y + reach < height) add(y + reach, 1);
+    if (y > reach) add(y - reach - 1, -1);
+    float* row = out.data() + static_cast<std::size_t>(y) * columns;
+    for (std::size_t x = 0; x < columns; ++x) row[x] = static_cast<float>(sums[x] / inside);
   }
 }
 
 void blur(std::vector<float>& values, int width, int height, int reach) {
   std::vector<float> between(values.size());
-  const auto w = static_cast<std::size_t>(width);
-  for (int y = 0; y < height; ++y) blur_line(values, between, static_cast<std::size_t>(y) * w, 1, width, reach);
-  for (int x = 0; x < width; ++x) blur_line(between, values, static_cast<std::size_t>(x), w, height, reach);
+  blur_across(values, between, width, height, reach);
+  blur_down(between, values, width, height, reach);
 }
 
 std::uint8_t byte(float share) {

@@ -123,7 +123,7 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
   std::vector<record::Frame> first = read_frames(run, {run.recorded->frames().front()});
   std::erase_if(frames, [](const record::Frame& f) { return f.position.empty(); });
   if (frames.empty()) return "";
-  const record::Frame& rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
+  const record::Frame rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
   for (record::Frame& frame : frames) complete_displacement(frame, rest);
   const Stage stage = set_up(rest, frames, run.recorded->sets());
   const bool bonds = std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
