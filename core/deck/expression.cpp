@@ -39,8 +39,8 @@ std::optional<Expression> Expression::compile(std::string_view text, const Locat
     }
     const int result = record(tokens, handles, text.size(), recorder);
     Expression expression;
-    expression.dimension_ = recorder.operand(result).dimension;
-    expression.is_condition_ = recorder.operand(result).is_condition;
+    expression.dimension_ = recorder.at(result).dimension;
+    expression.is_condition_ = recorder.at(result).is_condition;
     expression.steps_ = std::move(recorder).steps();
     expression.steps_.resize(static_cast<std::size_t>(result) + 1);
     return expression;

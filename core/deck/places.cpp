@@ -98,10 +98,13 @@ class Scanner {
   }
 
   void markup() {
+    is_at_top_ = is_at_top_ && next_is("<?");
     if (next_is("<!--"))
       skip_past("<!--", "-->", "this comment is not closed by -->");
     else if (next_is("<![CDATA["))
       stray_data();
+    else if (next_is("<?") && !is_at_top_)
+      fail(at_, "<? ?> may stand only at the top of the file");
     else if (next_is("<?"))
       skip_past("<?", "?>", "this is not closed by ?>");
     else if (next_is("<!"))
@@ -211,7 +214,7 @@ class Scanner {
   Counter counter_;
   Complaints& complaints_;
   std::size_t at_ = 0;
-  bool failed_ = false;
+  bool failed_ = false, is_at_top_ = true;
   std::vector<TagPlace> tags_;
   std::vector<Open> open_;
 };

@@ -18,9 +18,9 @@ struct Operand {
   std::size_t begin = 0, end = 0;  // the characters it came from
 };
 
-inline std::string kind_of(const Operand& node) {
-  if (node.is_condition) return "a condition";
-  return node.dimension.is_plain() ? "a plain number" : "in " + node.dimension.name();
+inline std::string kind_of(const Operand& operand) {
+  if (operand.is_condition) return "a condition";
+  return operand.dimension.is_plain() ? "a plain number" : "in " + operand.dimension.name();
 }
 
 class Recorder {
@@ -105,21 +105,21 @@ class Recorder {
     return push(Operation::choose, result, test, yes, no);
   }
 
-  const Operand& operand(int index) const { return operands_[index]; }
+  const Operand& at(int index) const { return operands_[index]; }
   std::vector<Expression::Step> steps() && { return std::move(steps_); }
 
  private:
-  int push(const Operand& node, const Expression::Step& step) {
-    operands_.push_back(node);
+  int push(const Operand& operand, const Expression::Step& step) {
+    operands_.push_back(operand);
     steps_.push_back(step);
-    steps_.back().value = node.value;
+    steps_.back().value = operand.value;
     return static_cast<int>(operands_.size()) - 1;
   }
 
-  int push(Operation operation, Operand node, int a, int b = 0, int c = 0) {
-    if (!node.is_constant) return push(node, {static_cast<int>(operation), a, b, c});
-    node.value = apply(operation, operands_[a].value, operands_[b].value, operands_[c].value);
-    return push(node, {});
+  int push(Operation operation, Operand operand, int a, int b = 0, int c = 0) {
+    if (!operand.is_constant) return push(operand, {static_cast<int>(operation), a, b, c});
+    operand.value = apply(operation, operands_[a].value, operands_[b].value, operands_[c].value);
+    return push(operand, {});
   }
 
   Operand joined(const Dimension& dimension, int a, int b) const {
@@ -129,22 +129,22 @@ class Recorder {
 
   // ---- What an operand must be
 
-  const Operand& number(const Operand& node) const {
-    if (node.is_condition)
-      throw ExpressionMistake(node.begin, "a condition is no number; join conditions with and, or, not");
-    return node;
+  const Operand& number(const Operand& operand) const {
+    if (operand.is_condition)
+      throw ExpressionMistake(operand.begin, "a condition is no number; join conditions with and, or, not");
+    return operand;
   }
 
-  const Operand& plain(const Operand& node, const std::string& who) const {
-    if (!number(node).dimension.is_plain())
-      throw ExpressionMistake(node.begin, who + " wants a plain number, this is " + kind_of(node));
-    return node;
+  const Operand& plain(const Operand& operand, const std::string& who) const {
+    if (!number(operand).dimension.is_plain())
+      throw ExpressionMistake(operand.begin, who + " wants a plain number, this is " + kind_of(operand));
+    return operand;
   }
 
-  void condition(const Operand& node) const {
-    if (!node.is_condition)
-      throw ExpressionMistake(node.begin,
-                              "a condition such as x < 1 mm is wanted here, this is " + kind_of(node));
+  void condition(const Operand& operand) const {
+    if (!operand.is_condition)
+      throw ExpressionMistake(operand.begin,
+                              "a condition such as x < 1 mm is wanted here, this is " + kind_of(operand));
   }
 
   Dimension common(const Operand& left, const Operand& right) const {

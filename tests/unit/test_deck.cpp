@@ -121,6 +121,7 @@ TEST_F(ADeck, that_is_not_well_formed_is_refused_at_the_place) {
   EXPECT_THAT(complaint("<scene>\n 5 mm <a/></scene>"),
               HasSubstr("deck.xml:2:2: error: text between tags means nothing here"));
   EXPECT_THAT(complaint("<scene><![CDATA[x]]></scene>"), HasSubstr("CDATA"));
+  EXPECT_THAT(complaint("<scene><?pi?></scene>"), HasSubstr("only at the top"));
   EXPECT_THAT(complaint("< scene/>"), HasSubstr("a tag needs a name"));
   EXPECT_THAT(complaint("<scene"), HasSubstr("this tag is not closed"));
 }
@@ -376,6 +377,10 @@ TEST_F(AValue, that_is_not_what_is_wanted_is_refused_in_words) {
   EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"${n}\" which is a plain number");
   EXPECT_FALSE(quantity("1 2 mm", "m"));
   EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"1 2 mm\" which are 2 values");
+  EXPECT_FALSE(quantity("${side} mm", "m"));
+  EXPECT_EQ(said(),
+            "19: 'value' wants a length such as \"1 mm\", got \"${side} mm\": what stands before \"mm\" has "
+            "a unit already");
   EXPECT_FALSE(quantity("", "1"));
   EXPECT_EQ(said(), "11: 'value' wants a plain number, got nothing");
   for (const char* bad : {"nan", "inf", "-inf", "1e999", "0x10", "abc", "mm", "--1", "5 mm mm", "${1/0}",
