@@ -132,8 +132,9 @@ std::vector<std::string> words(hid_t place, const std::string& name) {
   for (const std::int64_t value : integers(place, name)) {
     const bool named = value >= 0 && value < static_cast<std::int64_t>(known.size());
     const auto member = members.find(value);
-    out.push_back(named ? known[static_cast<std::size_t>(value)]
-                        : member != members.end() ? member->second : std::to_string(value));
+    out.push_back(named                     ? known[static_cast<std::size_t>(value)]
+                  : member != members.end() ? member->second
+                                            : std::to_string(value));
   }
   return out;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Reads what a run recorded back into plain vectors, for pictures and reports. A simulation never reads its record;
-// so this is liberal: what is not there is left empty.
+// Reads what a run recorded back into plain vectors, for pictures and reports. A simulation never reads its
+// record; so this is liberal: what is not there is left empty.
 
 #include <array>
 #include <cstdint>
@@ -24,10 +24,10 @@ struct FrameHead {
 
 struct Bonds {
   std::string family;
-  std::string law;                           ///< attribute "law" of the group, or empty
-  std::vector<std::array<Index, 2>> ends;    ///< rows of the frame's elements
-  std::vector<State> state;                  ///< as long as ends; all intact where the file has none
-  bool has_damage = false;                   ///< the family can soften
+  std::string law;                         ///< attribute "law" of the group, or empty
+  std::vector<std::array<Index, 2>> ends;  ///< rows of the frame's elements
+  std::vector<State> state;                ///< as long as ends; all intact where the file has none
+  bool has_damage = false;                 ///< the family can soften
 };
 
 struct Frame {
@@ -35,7 +35,7 @@ struct Frame {
   std::vector<std::int64_t> id;
   std::vector<Vec3> position;
   std::vector<Real> radius;
-  std::vector<Vec3> displacement;            ///< empty, or as long as position
+  std::vector<Vec3> displacement;  ///< empty, or as long as position
   std::vector<Bonds> bonds;
 };
 
@@ -56,7 +56,7 @@ class FrameReader {
   FrameReader& operator=(const FrameReader&) = delete;
 
   const std::vector<FrameHead>& frames() const { return frames_; }  ///< in the order of their steps
-  int unreadable_frames() const { return unreadable_; }             ///< links whose target is missing or damaged
+  int unreadable_frames() const { return unreadable_; }  ///< links whose target is missing or damaged
 
   Frame read(const FrameHead&) const;  ///< throws MachineFailure
   Breaks breaks() const;               ///< empty where there is none

@@ -1,6 +1,6 @@
 #pragma once
-// Owners of HDF5 identifiers. HDF5 wants each identifier closed by the function of its own kind; a handle remembers
-// which. Included by core/io only.
+// Owners of HDF5 identifiers. HDF5 wants each identifier closed by the function of its own kind; a handle
+// remembers which. Included by core/io only.
 
 #include <hdf5.h>
 

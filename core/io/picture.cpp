@@ -115,7 +115,8 @@ void Canvas::for_box(float x0, float x1, float y0, float y1, const Paint& paint)
   const int last_x = static_cast<int>(std::min(static_cast<float>(width_ - 1), x1));
   const int last_y = static_cast<int>(std::min(static_cast<float>(height_ - 1), y1));
   for (int y = first_y; y <= last_y; ++y)
-    for (int x = first_x; x <= last_x; ++x) paint(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, x, y);
+    for (int x = first_x; x <= last_x; ++x)
+      paint(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, x, y);
 }
 
 void Canvas::sphere(const Vec3& centre, Real radius, Color base) {
@@ -134,7 +135,8 @@ void Canvas::sphere(const Vec3& centre, Real radius, Color base) {
 void Canvas::disc(const Vec3& centre, const Vec3& normal, Real radius, Color base) {
   const Point c = project(centre);
   const float r = static_cast<float>(radius) * scale_;
-  const auto nr = static_cast<float>(normal.dot(camera_.right)), nu = static_cast<float>(normal.dot(camera_.up));
+  const auto nr = static_cast<float>(normal.dot(camera_.right)),
+             nu = static_cast<float>(normal.dot(camera_.up));
   // A disc seen from its side is given a little thickness, or it would vanish.
   const float nt = std::max(0.25F, std::abs(static_cast<float>(normal.dot(toward_))));
   const float sign = normal.dot(toward_) < 0 ? -1.0F : 1.0F;
@@ -215,11 +217,15 @@ Image Canvas::image() const {
 
 std::vector<std::uint8_t> png(const Image& image) {
   const auto row_bytes = static_cast<std::size_t>(image.width) * 4;
-  if (image.width < 1 || image.height < 1 || image.rgba.size() != row_bytes * static_cast<std::size_t>(image.height))
+  if (image.width < 1 || image.height < 1 ||
+      image.rgba.size() != row_bytes * static_cast<std::size_t>(image.height))
     throw MachineFailure("a picture's bytes do not match its size");
   std::vector<std::uint8_t> out;
-  // libpng reports errors by a function that must not return; throwing through its frames is what it allows in C++.
-  const auto fail = [](png_structp, png_const_charp message) { throw MachineFailure(std::string("libpng: ") + message); };
+  // libpng reports errors by a function that must not return; throwing through its frames is what it allows
+  // in C++.
+  const auto fail = [](png_structp, png_const_charp message) {
+    throw MachineFailure(std::string("libpng: ") + message);
+  };
   const auto warn = [](png_structp, png_const_charp) {};
   png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, warn);
   png_infop info = writer ? png_create_info_struct(writer) : nullptr;
@@ -233,8 +239,9 @@ std::vector<std::uint8_t> png(const Image& image) {
   };
   try {
     png_set_write_fn(writer, &out, append, [](png_structp) {});
-    png_set_IHDR(writer, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-                 PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(writer, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
+                 8, PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(writer, 6);
     png_write_info(writer, info);
     for (int y = 0; y < image.height; ++y)

@@ -1,6 +1,7 @@
 #pragma once
-// A small software rasteriser for specimens: spheres, discs and segments seen along parallel rays, with a depth
-// buffer, soft shading and twofold supersampling. Same input, same bytes: pictures can be compared by a test.
+// A small software rasteriser for specimens: spheres, discs and segments seen along parallel rays, with a
+// depth buffer, soft shading and twofold supersampling. Same input, same bytes: pictures can be compared by a
+// test.
 
 #include <cstdint>
 #include <vector>
@@ -24,7 +25,8 @@ constexpr Color mix(Color a, Color b, float share_of_b) {
           a.blue + (b.blue - a.blue) * share_of_b};
 }
 
-/// Four bytes a pixel, straight alpha: what nothing covers is transparent, so a picture suits light and dark pages.
+/// Four bytes a pixel, straight alpha: what nothing covers is transparent, so a picture suits light and dark
+/// pages.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;

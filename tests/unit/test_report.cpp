@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <unistd.h>
 
 #include "core/base/failure.hpp"
 #include "core/domain/vocabulary.hpp"
@@ -35,7 +35,8 @@ std::string read(const fs::path& file) {
   return out.str();
 }
 
-/// Two layers of six elements, a cohesive interface between them, one bond of which has broken and one softens.
+/// Two layers of six elements, a cohesive interface between them, one bond of which has broken and one
+/// softens.
 void make_specimen(Domain& domain) {
   domain.add_elements(12);
   const auto position = domain.elements().column("position").view<Vec3>();
@@ -76,7 +77,8 @@ class Report : public testing::Test {
     Domain domain;
     make_specimen(domain);
     record_frames(folder, domain);
-    write(folder / "summary.json", R"({"scene": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
+    write(folder / "summary.json",
+          R"({"scene": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
       "elements": 12, "bonds": {"interface": 6}, "steps": 100, "time_step": 1e-5, "wall_seconds": 83,
       "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
       "packing": [{"density": 0.615, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
@@ -85,7 +87,8 @@ class Report : public testing::Test {
     write(folder / "curves/force.csv",
           "step [1],time [s],displacement [m],force [N],reference Eq (10) [N]\n"
           "0,0,0,0,0\n50,5e-4,1e-4,30,31\n100,1e-3,2e-4,60,59\n");
-    write(folder / "curves/force.json", R"({"title": "Load", "x": "displacement", "y": ["force"], "x_label": "opening",
+    write(folder / "curves/force.json",
+          R"({"title": "Load", "x": "displacement", "y": ["force"], "x_label": "opening",
       "x_scale": 1000, "x_unit": "mm", "references": ["paper.csv"]})");
     write(folder / "curves/references/paper.csv", "opening [mm],Fig 14 [N]\n0,0\n0.2,61\n");
     write(folder / "curves/energy.csv",
@@ -212,7 +215,8 @@ TEST_F(Report, a_run_that_was_killed_is_reported_from_what_it_had_written) {
 }
 
 TEST_F(Report, an_interrupted_run_says_why_it_ended) {
-  write(folder / "summary.json", R"({"status": "interrupted", "exit_reason": "SIGINT; resume with: beadwork run --resume"})");
+  write(folder / "summary.json",
+        R"({"status": "interrupted", "exit_reason": "SIGINT; resume with: beadwork run --resume"})");
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("badge interrupted"));
   EXPECT_THAT(html, HasSubstr("resume with"));
@@ -246,8 +250,8 @@ TEST(ReportTable, a_heading_has_a_name_and_a_unit) {
 }
 
 TEST(ReportChart, ticks_are_round_numbers) {
-  EXPECT_THAT(report::ticks(0, 1.6, 8), testing::Pointwise(testing::DoubleNear(1e-12),
-                                                           {0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6}));
+  EXPECT_THAT(report::ticks(0, 1.6, 8),
+              testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.4, 1.6}));
   EXPECT_EQ(report::ticks(3, 3, 5).size(), 1U);
 }
 
@@ -257,8 +261,8 @@ TEST(ReportChart, thinning_keeps_the_peak_and_the_ends) {
   y[12345] = -3;
   const auto rows = report::thinned(y, 900);
   EXPECT_LE(rows.size(), 1000U);
-  EXPECT_THAT(rows, testing::AllOf(testing::Contains(54321U), testing::Contains(12345U), testing::Contains(99999U),
-                                   testing::Contains(0U)));
+  EXPECT_THAT(rows, testing::AllOf(testing::Contains(54321U), testing::Contains(12345U),
+                                   testing::Contains(99999U), testing::Contains(0U)));
 }
 
 TEST(ReportText, numbers_read_well) {

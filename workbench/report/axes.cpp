@@ -43,8 +43,8 @@ std::vector<double> ticks(double from, double to, int wanted) {
       break;
     }
   std::vector<double> out;
-  for (auto k = static_cast<std::int64_t>(std::ceil(from / step - 1e-9)); static_cast<double>(k) * step <= to + 1e-9 * step;
-       ++k)
+  for (auto k = static_cast<std::int64_t>(std::ceil(from / step - 1e-9));
+       static_cast<double>(k) * step <= to + 1e-9 * step; ++k)
     out.push_back(static_cast<double>(k) * step);
   return out;
 }
@@ -62,7 +62,8 @@ std::string Axes::svg() const {
         "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>"
         "<text class=\"tick\" x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>",
         across(v), top, base, base + 19, number(v));
-  out += fmt::format("<line class=\"base\" x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\"/>", left, width - right, base, base);
+  out += fmt::format("<line class=\"base\" x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\"/>", left, width - right,
+                     base, base);
   out += fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
                      0.5 * (left + width - right), height - 9, escaped(x_label));
   out += fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text></g>", 4, 13, escaped(y_label));

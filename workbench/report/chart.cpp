@@ -35,9 +35,11 @@ Range width_of(const Chart& chart) {
   Range range{0, 0};
   bool first = true;
   for (const Series& s : chart.series)
-    if (s.stroke == Stroke::solid) range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
+    if (s.stroke == Stroke::solid)
+      range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
   if (first)
-    for (const Series& s : chart.series) range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
+    for (const Series& s : chart.series)
+      range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
   if (!(range.span() > 0)) return padded(range);
   return range;
 }
@@ -58,8 +60,8 @@ std::string path_of(const Series& s, const Axes& axes) {
 
 std::string line_of(const Series& s, const Axes& axes) {
   if (s.stroke != Stroke::points)
-    return fmt::format("<path class=\"line s{}{}\" d=\"{}\"/>", s.color, s.stroke == Stroke::dashed ? " dashed" : "",
-                       path_of(s, axes));
+    return fmt::format("<path class=\"line s{}{}\" d=\"{}\"/>", s.color,
+                       s.stroke == Stroke::dashed ? " dashed" : "", path_of(s, axes));
   std::string out;
   for (std::size_t i = 0; i < s.x.size(); ++i)
     if (std::isfinite(s.x[i]) && std::isfinite(s.y[i]))
@@ -80,7 +82,8 @@ std::string areas_of(const Chart& chart, const Axes& axes) {
     for (std::size_t k = 0; k < s.y.size(); k += stride) {
       const std::size_t i = k + stride < s.y.size() ? k : s.y.size() - 1;
       const double height = std::isfinite(s.y[i]) ? s.y[i] : 0;
-      above += fmt::format("{}{:.1f} {:.1f}", above.empty() ? "M" : "L", axes.across(s.x[i]), axes.down(floor[i] + height));
+      above += fmt::format("{}{:.1f} {:.1f}", above.empty() ? "M" : "L", axes.across(s.x[i]),
+                           axes.down(floor[i] + height));
       below = fmt::format("L{:.1f} {:.1f}", axes.across(s.x[i]), axes.down(floor[i])) + below;
     }
     for (std::size_t i = 0; i < s.y.size(); ++i) floor[i] += std::isfinite(s.y[i]) ? s.y[i] : 0;
@@ -90,13 +93,15 @@ std::string areas_of(const Chart& chart, const Axes& axes) {
 }
 
 std::string readout(const Chart& chart, const Series& first, std::size_t i) {
-  std::string text = chart.x_name + " " + number(first.x[i]) + (chart.x_unit.empty() ? "" : " " + chart.x_unit);
+  std::string text =
+      chart.x_name + " " + number(first.x[i]) + (chart.x_unit.empty() ? "" : " " + chart.x_unit);
   for (const Series& s : chart.series)
     if (s.x.size() == first.x.size() && i < s.y.size()) text += "  ·  " + s.label + " " + number(s.y[i]);
   return text;
 }
 
-/// Where the pointer rests: a guide line, a dot on each curve, and the values; all in the style sheet's :hover.
+/// Where the pointer rests: a guide line, a dot on each curve, and the values; all in the style sheet's
+/// :hover.
 std::string probes_of(const Chart& chart, const Axes& axes) {
   const auto first = std::find_if(chart.series.begin(), chart.series.end(),
                                   [](const Series& s) { return s.stroke == Stroke::solid && !s.x.empty(); });
@@ -109,16 +114,17 @@ std::string probes_of(const Chart& chart, const Axes& axes) {
     const std::size_t i = probes == 1 ? 0 : p * (rows - 1) / (probes - 1);
     if (!std::isfinite(first->x[i]) || !std::isfinite(first->y[i])) continue;
     const double x = axes.across(first->x[i]);
-    const double half = rising ? 0.5 * (Axes::width - Axes::left - Axes::right) / static_cast<double>(probes) + 0.5 : 7;
+    const double half =
+        rising ? 0.5 * (Axes::width - Axes::left - Axes::right) / static_cast<double>(probes) + 0.5 : 7;
     const double top = rising ? Axes::top : axes.down(first->y[i]) - 7;
-    out += fmt::format("<g><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", x - half, top, 2 * half,
-                       rising ? base - top : 14);
+    out += fmt::format("<g><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", x - half,
+                       top, 2 * half, rising ? base - top : 14);
     out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", x, Axes::top, base);
     if (!chart.stacked)
       for (const Series& s : chart.series)
         if (s.x.size() == rows && std::isfinite(s.y[i]) && s.y[i] >= axes.y.low && s.y[i] <= axes.y.high)
-          out += fmt::format("<circle class=\"s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>", s.color, axes.across(s.x[i]),
-                             axes.down(s.y[i]));
+          out += fmt::format("<circle class=\"s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>", s.color,
+                             axes.across(s.x[i]), axes.down(s.y[i]));
     const std::string text = escaped(readout(chart, *first, i));
     out += fmt::format("<text x=\"{}\" y=\"13\" text-anchor=\"end\">{}</text><title>{}</title></g>",
                        Axes::width - Axes::right, text, text);
@@ -131,9 +137,11 @@ std::string markers_of(const Chart& chart, const Axes& axes) {
   if (chart.series.empty()) return out;
   const Series& s = chart.series.front();
   for (const Marker& marker : chart.markers) {
-    if (marker.row >= s.x.size() || !std::isfinite(s.x[marker.row]) || !std::isfinite(s.y[marker.row])) continue;
+    if (marker.row >= s.x.size() || !std::isfinite(s.x[marker.row]) || !std::isfinite(s.y[marker.row]))
+      continue;
     out += fmt::format(
-        "<g class=\"marker\"><circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"8\"/><text x=\"{0:.1f}\" y=\"{1:.1f}\" "
+        "<g class=\"marker\"><circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"8\"/><text x=\"{0:.1f}\" "
+        "y=\"{1:.1f}\" "
         "dy=\".36em\" text-anchor=\"middle\">{2}</text></g>",
         axes.across(s.x[marker.row]), axes.down(s.y[marker.row]), escaped(marker.label));
   }
@@ -141,20 +149,24 @@ std::string markers_of(const Chart& chart, const Axes& axes) {
 }
 
 std::string legend_of(const Chart& chart) {
-  if (chart.series.size() == 1 && !chart.y_label.empty()) return "<div class=\"legend\"></div>";  // the axis says it
+  if (chart.series.size() == 1 && !chart.y_label.empty())
+    return "<div class=\"legend\"></div>";  // the axis says it
   std::string out = "<div class=\"legend\">";
   for (const Series& s : chart.series) {
-    const char* kind = s.stroke == Stroke::dashed ? "dashed" : s.stroke == Stroke::points ? "ring"
-                       : chart.stacked            ? "block"
-                                                  : "stroke";
+    const char* kind = s.stroke == Stroke::dashed   ? "dashed"
+                       : s.stroke == Stroke::points ? "ring"
+                       : chart.stacked              ? "block"
+                                                    : "stroke";
     out += fmt::format("<span><i class=\"key {} s{}\"></i>{}</span>", kind, s.color, escaped(s.label));
   }
   return out + "</div>";
 }
 
 std::string frame(const std::string& title, const std::string& legend, const std::string& drawing) {
-  return fmt::format("<figure class=\"chart\"><figcaption>{}</figcaption>{}<svg viewBox=\"0 0 {} {}\" role=\"img\">{}</svg></figure>\n",
-                     escaped(title), legend, Axes::width, Axes::height, drawing);
+  return fmt::format(
+      "<figure class=\"chart\"><figcaption>{}</figcaption>{}<svg viewBox=\"0 0 {} {}\" "
+      "role=\"img\">{}</svg></figure>\n",
+      escaped(title), legend, Axes::width, Axes::height, drawing);
 }
 
 Axes axes_of(const Chart& chart) {
@@ -197,8 +209,8 @@ std::string figure(const Chart& chart) {
   const Axes axes = axes_of(chart);
   std::string out = axes.svg();
   // An inner drawing clips what it holds, and unlike a clip path it needs no name that is unique on the page.
-  out += fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">", Axes::left,
-                     Axes::top - 2, Axes::width - Axes::left - Axes::right + 2,
+  out += fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">",
+                     Axes::left, Axes::top - 2, Axes::width - Axes::left - Axes::right + 2,
                      Axes::height - Axes::top - Axes::bottom + 4);
   if (chart.stacked) out += areas_of(chart, axes);
   for (const Stroke stroke : {Stroke::dashed, Stroke::points, Stroke::solid})
@@ -210,14 +222,17 @@ std::string figure(const Chart& chart) {
 
 std::string figure(const Bars& bars) {
   if (bars.heights.empty() || bars.edges.size() != bars.heights.size() + 1) return "";
-  const Axes axes{range_of(bars.edges), padded(united({0, 0}, range_of(bars.heights))), bars.x_label, bars.y_label};
+  const Axes axes{range_of(bars.edges), padded(united({0, 0}, range_of(bars.heights))), bars.x_label,
+                  bars.y_label};
   std::string out = axes.svg();
   for (std::size_t i = 0; i < bars.heights.size(); ++i) {
     const double left = axes.across(bars.edges[i]), right = axes.across(bars.edges[i + 1]);
     const double top = axes.down(bars.heights[i]);
-    out += fmt::format("<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{} to {}: {}</title></rect>",
-                       left + 1, top, std::max(0.5, right - left - 2), std::max(0.0, axes.down(0) - top),
-                       number(bars.edges[i]), number(bars.edges[i + 1]), number(bars.heights[i]));
+    out += fmt::format(
+        "<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{} to {}: "
+        "{}</title></rect>",
+        left + 1, top, std::max(0.5, right - left - 2), std::max(0.0, axes.down(0) - top),
+        number(bars.edges[i]), number(bars.edges[i + 1]), number(bars.heights[i]));
   }
   return frame(bars.title, "", out);
 }

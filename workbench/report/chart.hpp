@@ -1,6 +1,6 @@
 #pragma once
-// Line charts, stacked areas and histograms as inline SVG. Colours come from the page's style sheet (classes s0 to
-// s7), so a chart is legible on light and dark pages.
+// Line charts, stacked areas and histograms as inline SVG. Colours come from the page's style sheet (classes
+// s0 to s7), so a chart is legible on light and dark pages.
 
 #include <string>
 #include <vector>
@@ -27,10 +27,11 @@ struct Chart {
   std::string x_name, x_unit;           ///< for the readout under the pointer
   std::vector<Series> series;
   std::vector<Marker> markers;
-  bool stacked = false;                 ///< solid series as areas on top of each other; they share their x
+  bool stacked = false;  ///< solid series as areas on top of each other; they share their x
 };
 
-/// A <figure> with title, legend and drawing. Thousands of points are thinned to the least and greatest of each bin.
+/// A <figure> with title, legend and drawing. Thousands of points are thinned to the least and greatest of
+/// each bin.
 std::string figure(const Chart&);
 
 struct Bars {
@@ -42,7 +43,8 @@ std::string figure(const Bars&);
 /// Round numbers covering from..to, about `wanted` of them.
 std::vector<double> ticks(double from, double to, int wanted);
 
-/// At most about `most` rows that keep the shape: first, last, least and greatest of each bin, in their order.
+/// At most about `most` rows that keep the shape: first, last, least and greatest of each bin, in their
+/// order.
 std::vector<std::size_t> thinned(const std::vector<double>& y, std::size_t most);
 
 }  // namespace beadwork::report

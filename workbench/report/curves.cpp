@@ -49,7 +49,8 @@ std::vector<const Column*> ordinates(const Curve& curve, const Column* x) {
   const auto listed = curve.sidecar.find("y");
   if (listed != curve.sidecar.end()) {
     for (const Json& name : listed->is_array() ? *listed : Json::array({*listed}))
-      if (const Column* column = name.is_string() ? curve.table.find(name.get<std::string>()) : nullptr) out.push_back(column);
+      if (const Column* column = name.is_string() ? curve.table.find(name.get<std::string>()) : nullptr)
+        out.push_back(column);
   }
   if (!out.empty()) return out;
   for (const Column& column : curve.table.columns)
@@ -73,14 +74,14 @@ std::vector<double> in_units(const Column& column, const std::string& run_unit, 
   return {};
 }
 
-void add_references(Chart& chart, const Curve& curve, const Column& x, const std::string& unit, const Scale& sx,
-                    const Scale& sy) {
+void add_references(Chart& chart, const Curve& curve, const Column& x, const std::string& unit,
+                    const Scale& sx, const Scale& sy) {
   int color = static_cast<int>(chart.series.size());
   const auto x_values = scaled(x.values, sx.factor);
   for (const Column& column : curve.table.columns)
     if (column.is_reference() && column.unit == unit && &column != &x)
-      chart.series.push_back(
-          {reference_label(column), x_values, scaled(column.values, sy.factor), color++ % colors, Stroke::dashed});
+      chart.series.push_back({reference_label(column), x_values, scaled(column.values, sy.factor),
+                              color++ % colors, Stroke::dashed});
   for (const Reference& reference : curve.references) {
     const Column& rx = reference.table.columns[0];
     const Column& ry = reference.table.columns[1];
@@ -94,7 +95,8 @@ void add_references(Chart& chart, const Curve& curve, const Column& x, const std
 
 std::vector<Marker> markers(const Table& table, const std::vector<record::FrameHead>& pictured) {
   std::vector<Marker> out;
-  for (std::size_t k = 0; k < pictured.size(); ++k) out.push_back({row_at(table, pictured[k]), std::to_string(k + 1)});
+  for (std::size_t k = 0; k < pictured.size(); ++k)
+    out.push_back({row_at(table, pictured[k]), std::to_string(k + 1)});
   return out;
 }
 

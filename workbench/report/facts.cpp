@@ -65,7 +65,9 @@ std::vector<double> reals_in(const Json& object, const char* key) {
   return out;
 }
 
-bool is_histogram(const Json& value) { return value.is_object() && value.contains("edges") && value.contains("counts"); }
+bool is_histogram(const Json& value) {
+  return value.is_object() && value.contains("edges") && value.contains("counts");
+}
 
 std::string histogram(const std::string& title, const Json& value) {
   Bars bars;
@@ -83,7 +85,8 @@ std::string histogram(const std::string& title, const Json& value) {
 std::string breaks_over_time(const record::Breaks& log) {
   std::map<std::string, std::vector<double>> times;
   for (std::size_t i = 0; i < log.time.size(); ++i) times[log.mode[i]].push_back(log.time[i]);
-  const Scale scale = readable("s", log.time.empty() ? 0 : *std::max_element(log.time.begin(), log.time.end()));
+  const Scale scale =
+      readable("s", log.time.empty() ? 0 : *std::max_element(log.time.begin(), log.time.end()));
   Chart chart;
   chart.title = "Broken bonds over time";
   chart.x_name = "time";
@@ -105,7 +108,8 @@ std::string breaks_over_time(const record::Breaks& log) {
 std::string tail(const std::string& text, int lines) {
   std::size_t start = text.size();
   if (start > 0 && text.back() == '\n') --start;
-  for (int i = 0; i < lines && start != std::string::npos && start > 0; ++i) start = text.rfind('\n', start - 1);
+  for (int i = 0; i < lines && start != std::string::npos && start > 0; ++i)
+    start = text.rfind('\n', start - 1);
   return start == std::string::npos || start == 0 ? text : text.substr(start + 1);
 }
 
@@ -122,9 +126,10 @@ std::string facts_table(const Json& object, const std::string& unit_of_numbers) 
 }
 
 std::string facts(const Run& run) {
-  static constexpr std::array<const char*, 7> headline = {"elements", "bonds", "steps", "time_step", "wall_seconds",
-                                                          "bond_updates_per_second", "threads"};
-  static constexpr std::array<const char*, 6> elsewhere = {"status", "exit_reason", "scene", "energy", "breaks", "packing"};
+  static constexpr std::array<const char*, 7> headline = {
+      "elements", "bonds", "steps", "time_step", "wall_seconds", "bond_updates_per_second", "threads"};
+  static constexpr std::array<const char*, 6> elsewhere = {"status", "exit_reason", "scene",
+                                                           "energy", "breaks",      "packing"};
   std::string tiles;
   for (const char* key : headline) {
     const auto value = run.summary.find(key);
@@ -132,7 +137,8 @@ std::string facts(const Run& run) {
     std::string text;
     if (value->is_object()) {
       for (const auto& [family, number_of] : value->items())
-        text += (text.empty() ? "" : "<br>") + shown(family, number_of, "") + " <small>" + escaped(family) + "</small>";
+        text += (text.empty() ? "" : "<br>") + shown(family, number_of, "") + " <small>" + escaped(family) +
+                "</small>";
     } else {
       text = shown(key, *value, "");
     }
@@ -141,14 +147,16 @@ std::string facts(const Run& run) {
   Json rest = Json::object();
   for (const auto& [key, value] : run.summary.items()) {
     const auto same = [&k = key](const char* known) { return k == known; };
-    if (std::none_of(headline.begin(), headline.end(), same) && std::none_of(elsewhere.begin(), elsewhere.end(), same))
+    if (std::none_of(headline.begin(), headline.end(), same) &&
+        std::none_of(elsewhere.begin(), elsewhere.end(), same))
       rest[key] = value;
   }
   std::string out = tiles.empty() ? "" : "<dl class=\"tiles\">" + tiles + "</dl>";
   const std::string more = facts_table(rest);
   if (out.empty())
     out = more;
-  else if (!more.empty()) out += "<details class=\"quiet\"><summary>All facts of the run</summary>" + more + "</details>";
+  else if (!more.empty())
+    out += "<details class=\"quiet\"><summary>All facts of the run</summary>" + more + "</details>";
   return out.empty() ? "" : "<section>" + out + "</section>\n";
 }
 
@@ -173,7 +181,8 @@ std::string breaks(const Run& run) {
   std::string words = "<p>" + plural(static_cast<std::int64_t>(log.time.size()), "bond") + " broke";
   const Scale scale = readable("J", energy);
   if (energy > 0) words += ", releasing " + number(energy * scale.factor) + " " + scale.unit;
-  return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log) + "<div>" + table + words + ".</p></div></div>");
+  return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log) + "<div>" + table + words +
+                               ".</p></div></div>");
 }
 
 std::string packing(const Run& run) {
@@ -197,9 +206,11 @@ std::string packing(const Run& run) {
 std::string deck_and_log(const Run& run) {
   std::string body;
   if (!run.deck.empty())
-    body += "<details><summary>The deck, as it was understood</summary><pre>" + escaped(run.deck) + "</pre></details>";
+    body += "<details><summary>The deck, as it was understood</summary><pre>" + escaped(run.deck) +
+            "</pre></details>";
   if (!run.log.empty())
-    body += "<details><summary>The end of the log</summary><pre>" + escaped(tail(run.log, 60)) + "</pre></details>";
+    body += "<details><summary>The end of the log</summary><pre>" + escaped(tail(run.log, 60)) +
+            "</pre></details>";
   return section("Deck and log", body);
 }
 

@@ -17,11 +17,13 @@ namespace {
 constexpr int widest = 1120, tallest = 460;  ///< pixels
 
 std::string css(Color c) {
-  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255), std::lround(c.blue * 255));
+  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255),
+                     std::lround(c.blue * 255));
 }
 
 std::string swatch(const std::string& label, Color c) {
-  return fmt::format("<span><i class=\"key disc\" style=\"background:{}\"></i>{}</span>", css(c), escaped(label));
+  return fmt::format("<span><i class=\"key disc\" style=\"background:{}\"></i>{}</span>", css(c),
+                     escaped(label));
 }
 
 /// A bar of a round length, about a sixth of the picture.
@@ -33,18 +35,21 @@ std::string scale_bar(const Camera& camera) {
       break;
     }
   const Scale scale = readable("m", length);
-  return fmt::format("<i class=\"scale\" style=\"width:{:.2f}%\"><b>{} {}</b></i>", 100 * length / camera.width,
-                     number(length * scale.factor), scale.unit);
+  return fmt::format("<i class=\"scale\" style=\"width:{:.2f}%\"><b>{} {}</b></i>",
+                     100 * length / camera.width, number(length * scale.factor), scale.unit);
 }
 
-std::string picture(const Stage& stage, const View& view, const record::Frame& frame, const std::string& name) {
+std::string picture(const Stage& stage, const View& view, const record::Frame& frame,
+                    const std::string& name) {
   // Views of one width share the bar under the last of them.
   const bool last = &view == &stage.views.back() || stage.views.back().camera.width != view.camera.width;
   const Image image = draw(stage, view, frame, width_in_pixels(stage, view, widest, tallest));
   const auto bytes = png(image);
-  return fmt::format("<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">{}</div>",
-                     base64(bytes.data(), bytes.size()), image.width, image.height, escaped(name + ", " + view.name),
-                     last ? scale_bar(view.camera) : "");
+  return fmt::format(
+      "<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" "
+      "alt=\"{}\">{}</div>",
+      base64(bytes.data(), bytes.size()), image.width, image.height, escaped(name + ", " + view.name),
+      last ? scale_bar(view.camera) : "");
 }
 
 std::string states_of(const Counts& n) {
@@ -53,20 +58,24 @@ std::string states_of(const Counts& n) {
     return swatch(count(static_cast<std::int64_t>(many)) + " " + kind, c);
   };
   return "<span class=\"states\">" + item("elastic", n.elastic, palette::elastic) +
-         item("softening", n.softening, palette::softening) + item("broken", n.broken, palette::broken) + "</span>";
+         item("softening", n.softening, palette::softening) + item("broken", n.broken, palette::broken) +
+         "</span>";
 }
 
 std::string figure_of(const Run& run, const Stage& stage, const record::Frame& frame, std::size_t place) {
   const std::string loading = loading_at(run, frame.head);
   const Scale scale = readable("s", frame.head.time);
-  const std::string when =
-      "step " + count(frame.head.step) + ", time " + number(frame.head.time * scale.factor) + " " + scale.unit;
+  const std::string when = "step " + count(frame.head.step) + ", time " +
+                           number(frame.head.time * scale.factor) + " " + scale.unit;
   std::string out = fmt::format(
-      "<figure class=\"frame\"><figcaption><span class=\"no\">{}</span><b>{}</b> <span class=\"when\">{}</span>{}</figcaption>",
-      place, escaped(loading.empty() ? when : loading), loading.empty() ? "" : escaped(when), states_of(counts(stage, frame)));
+      "<figure class=\"frame\"><figcaption><span class=\"no\">{}</span><b>{}</b> <span "
+      "class=\"when\">{}</span>{}</figcaption>",
+      place, escaped(loading.empty() ? when : loading), loading.empty() ? "" : escaped(when),
+      states_of(counts(stage, frame)));
   const Counts n = counts(stage, frame);
   for (const View& view : stage.views) {
-    const bool nothing_yet = view.show == Show::bonds && stage.interfaces.empty() && n.softening + n.broken == 0;
+    const bool nothing_yet =
+        view.show == Show::bonds && stage.interfaces.empty() && n.softening + n.broken == 0;
     if (!nothing_yet) out += picture(stage, view, frame, run.scene + ", " + when);
   }
   return out + "</figure>\n";
@@ -83,7 +92,8 @@ std::string explanation(const Stage& stage, bool bonds) {
                                  : "Displacements are true to scale.";
   out += "</p><div class=\"legend\">";
   if (bonds)
-    out += swatch("elastic", palette::elastic) + swatch("softening", palette::softening) + swatch("broken", palette::broken);
+    out += swatch("elastic", palette::elastic) + swatch("softening", palette::softening) +
+           swatch("broken", palette::broken);
   for (const Legend& set : stage.sets) out += swatch("set " + set.label, set.color);
   return out + "</div>";
 }
@@ -94,7 +104,8 @@ std::vector<record::Frame> read_frames(Run& run, const std::vector<record::Frame
     try {
       frames.push_back(run.recorded->read(head));
     } catch (const std::exception& problem) {
-      run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() + ").");
+      run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() +
+                          ").");
     }
   }
   return frames;
@@ -104,7 +115,8 @@ std::vector<record::Frame> read_frames(Run& run, const std::vector<record::Frame
 
 std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all, std::size_t most) {
   std::vector<record::FrameHead> flagged;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(flagged), [](const record::FrameHead& h) { return h.picture; });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(flagged),
+               [](const record::FrameHead& h) { return h.picture; });
   const std::vector<record::FrameHead>& from = flagged.empty() ? all : flagged;
   if (from.size() <= most) return from;
   std::vector<record::FrameHead> some;
@@ -126,11 +138,14 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
   const record::Frame rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
   for (record::Frame& frame : frames) complete_displacement(frame, rest);
   const Stage stage = set_up(rest, frames, run.recorded->sets());
-  const bool bonds = std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
+  const bool bonds =
+      std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
   const double shape = stage.views.front().camera.width / stage.views.front().camera.height;
-  std::string body = explanation(stage, bonds) + (shape > 2.2 ? "<div class=\"frames wide\">" : "<div class=\"frames\">");
+  std::string body =
+      explanation(stage, bonds) + (shape > 2.2 ? "<div class=\"frames wide\">" : "<div class=\"frames\">");
   for (const record::Frame& frame : frames) {
-    const auto head = std::find_if(pictured.begin(), pictured.end(), [&](const record::FrameHead& h) { return h.name == frame.head.name; });
+    const auto head = std::find_if(pictured.begin(), pictured.end(),
+                                   [&](const record::FrameHead& h) { return h.name == frame.head.name; });
     body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
   }
   return section("The specimen", body + "</div>");

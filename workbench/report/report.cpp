@@ -30,7 +30,8 @@ std::string notes(const Run& run) {
 }
 
 /// Replaces @name@ in the template. What is put in is not searched again, so a deck may hold @title@.
-std::string filled(std::string_view page, const std::string& title, const std::string& head, const std::string& body) {
+std::string filled(std::string_view page, const std::string& title, const std::string& head,
+                   const std::string& body) {
   std::string out;
   while (!page.empty()) {
     const auto start = page.find('@');
@@ -48,10 +49,11 @@ std::string filled(std::string_view page, const std::string& title, const std::s
 }
 
 std::string page_of(Run& run) {
-  const std::vector<record::FrameHead> shown = 
+  const std::vector<record::FrameHead> shown =
       run.recorded ? chosen(run.recorded->frames()) : std::vector<record::FrameHead>{};
   const std::string seen = pictures(run, shown);  // first: it may add notes
-  std::string body = facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
+  std::string body =
+      facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
   body = notes(run) + body;
   return filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body);
 }

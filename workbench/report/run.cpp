@@ -45,7 +45,8 @@ void read_references(Curve& curve, const fs::path& folder, std::vector<std::stri
     const fs::path path = folder / "references" / fs::path(file).filename();
     Reference reference{text_of(entry, "label"), read_table(path, false)};
     if (reference.table.columns.size() < 2 || reference.table.rows() == 0) {
-      notes.push_back("The reference curves/references/" + path.filename().string() + " is missing or empty.");
+      notes.push_back("The reference curves/references/" + path.filename().string() +
+                      " is missing or empty.");
       continue;
     }
     note_dropped(reference.table, "references/" + path.filename().string(), notes);
@@ -59,7 +60,8 @@ double place_of(const Curve& curve) {
   const auto order = curve.sidecar.find("order");
   if (order != curve.sidecar.end() && order->is_number()) return order->get<double>();
   if (curve.sidecar.empty()) return 1000;
-  return std::any_of(curve.table.columns.begin(), curve.table.columns.end(), [](const Column& c) { return c.unit == "N"; })
+  return std::any_of(curve.table.columns.begin(), curve.table.columns.end(),
+                     [](const Column& c) { return c.unit == "N"; })
              ? 100
              : 200;
 }
@@ -81,7 +83,8 @@ void read_curves(Run& run) {
   }
   std::stable_sort(run.curves.begin(), run.curves.end(),
                    [](const Curve& a, const Curve& b) { return place_of(a) < place_of(b); });
-  if (run.curves.empty()) run.notes.push_back("There are no curves: no watcher wrote any, or the run ended before.");
+  if (run.curves.empty())
+    run.notes.push_back("There are no curves: no watcher wrote any, or the run ended before.");
 }
 
 void read_record(Run& run) {
@@ -98,8 +101,8 @@ void read_record(Run& run) {
     return;
   }
   if (const int lost = run.recorded->unreadable_frames(); lost > 0)
-    run.notes.push_back(plural(lost, "frame") + " of run.h5 cannot be read, and " + (lost == 1 ? "was" : "were") +
-                        " left out.");
+    run.notes.push_back(plural(lost, "frame") + " of run.h5 cannot be read, and " +
+                        (lost == 1 ? "was" : "were") + " left out.");
 }
 
 /// A run that was killed has no summary, but its record knows what it was.
@@ -134,7 +137,8 @@ void read_status(Run& run) {
   if (!run.status.empty() && run.status != "running") return;
   run.status = "unfinished";
   run.notes.emplace_back(
-      "The run has not said how it ended: it is still going on, or it was killed. What follows is what it had written.");
+      "The run has not said how it ended: it is still going on, or it was killed. What follows is what it "
+      "had written.");
 }
 
 }  // namespace
@@ -147,11 +151,14 @@ std::string text_of(const Json& json, const std::string& key, const std::string&
 }
 
 Run open_run(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
+  if (!fs::is_directory(folder))
+    throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
   const auto written = {"summary.json", "resolved.xml", "run.log", "curves", "run.h5"};
-  if (std::none_of(written.begin(), written.end(), [&](const char* name) { return fs::exists(folder / name); }))
-    throw MachineFailure("'" + folder.string() +
-                         "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, curves, run.h5");
+  if (std::none_of(written.begin(), written.end(),
+                   [&](const char* name) { return fs::exists(folder / name); }))
+    throw MachineFailure(
+        "'" + folder.string() +
+        "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, curves, run.h5");
   Run run;
   run.folder = folder;
   run.summary = read_json(folder / "summary.json", run.notes);

@@ -28,13 +28,13 @@ struct Curve {
 
 struct Run {
   std::filesystem::path folder;
-  std::string scene;   ///< its name, from the summary, the deck or the folder
+  std::string scene;  ///< its name, from the summary, the deck or the folder
   Json summary = Json::object();
   std::string status;  ///< done, failed, interrupted, or "unfinished" where no summary says
   std::string deck, log;
   std::vector<Curve> curves;
   std::unique_ptr<record::FrameReader> recorded;  ///< null if run.h5 is missing or cannot be read
-  std::vector<std::string> notes;       ///< what is missing, one sentence each
+  std::vector<std::string> notes;                 ///< what is missing, one sentence each
 };
 
 /// Throws MachineFailure if the folder does not exist or holds nothing that a run writes.

@@ -48,8 +48,9 @@ std::vector<std::string> find_interfaces(const std::vector<record::Frame>& shown
   std::vector<std::string> names;
   for (const record::Frame& frame : shown)
     for (const record::Bonds& bonds : frame.bonds) {
-      const bool softens = bonds.has_damage || bonds.law.starts_with("cohesive-contact") ||
-                           std::find(bonds.state.begin(), bonds.state.end(), State::softening) != bonds.state.end();
+      const bool softens =
+          bonds.has_damage || bonds.law.starts_with("cohesive-contact") ||
+          std::find(bonds.state.begin(), bonds.state.end(), State::softening) != bonds.state.end();
       const bool surface = bonds.ends.size() < frame.position.size();
       if (softens && surface && std::find(names.begin(), names.end(), bonds.family) == names.end())
         names.push_back(bonds.family);
@@ -79,15 +80,16 @@ Real choose_magnification(const std::vector<record::Frame>& shown, Real length) 
   return factor;
 }
 
-/// Mean square of the directions along x, y, z of the interface's bonds, or else of the bonds that are not sound;
-/// zero if there is nothing to look at.
+/// Mean square of the directions along x, y, z of the interface's bonds, or else of the bonds that are not
+/// sound; zero if there is nothing to look at.
 Vec3 directions(const Stage& stage, const record::Frame& frame) {
   Vec3 sum = Vec3::Zero();
   for (const record::Bonds& bonds : frame.bonds)
     for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
       if (stage.interfaces.empty() ? bonds.state[b] == State::intact : !is_interface(stage, bonds)) continue;
       const auto [i, j] = bonds.ends[b];
-      const Vec3 along = at_rest(frame, static_cast<std::size_t>(j)) - at_rest(frame, static_cast<std::size_t>(i));
+      const Vec3 along =
+          at_rest(frame, static_cast<std::size_t>(j)) - at_rest(frame, static_cast<std::size_t>(i));
       const Real square = along.squaredNorm();
       if (square > 0 && std::isfinite(square)) sum += along.cwiseProduct(along) / square;
     }
@@ -101,7 +103,8 @@ struct Axes3 {
 /// Right is the longer of the two axes in the picture; z stands up wherever it is not right.
 Axes3 looking_along(int axis, const Vec3& size) {
   int a = (axis + 1) % 3, b = (axis + 2) % 3;
-  if (std::abs(size[a] - size[b]) < 0.2 * std::max(size[a], size[b]) ? b < a : size[b] > size[a]) std::swap(a, b);
+  if (std::abs(size[a] - size[b]) < 0.2 * std::max(size[a], size[b]) ? b < a : size[b] > size[a])
+    std::swap(a, b);
   return {a, b};
 }
 
@@ -125,8 +128,9 @@ int smallest_axis(const Vec3& v) { return largest_axis(-v); }
 
 /// Along which axes to look at the bodies, and at the bonds (-1: not at all).
 ///
-/// A plane of weak bonds (an interface, a crack) is seen from its edge and from above, its longest side to the right.
-/// Around a fibre the bonds have no direction along it: look down the fibre. Otherwise the broadest face is shown.
+/// A plane of weak bonds (an interface, a crack) is seen from its edge and from above, its longest side to
+/// the right. Around a fibre the bonds have no direction along it: look down the fibre. Otherwise the
+/// broadest face is shown.
 struct Choice {
   int bodies, bonds;
   const char* name;
@@ -154,11 +158,13 @@ Box stage_box(const Stage& stage, const Box& rest, const std::vector<record::Fra
 }
 
 /// The smallest set that holds an element gives its colour: a grip shows on the ply that it holds.
-void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64_t>>& sets, std::size_t elements) {
+void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64_t>>& sets,
+                std::size_t elements) {
   std::vector<const std::pair<const std::string, std::vector<std::int64_t>>*> by_size;
   for (const auto& set : sets)
     if (!set.second.empty()) by_size.push_back(&set);
-  std::stable_sort(by_size.begin(), by_size.end(), [](auto* a, auto* b) { return a->second.size() > b->second.size(); });
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [](auto* a, auto* b) { return a->second.size() > b->second.size(); });
   // The first colour is almost the body's: for a set that makes up most of it.
   std::size_t next = !by_size.empty() && 2 * by_size.front()->second.size() < elements ? 1 : 0;
   for (const auto* set : by_size) {
@@ -169,7 +175,8 @@ void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64
   }
 }
 
-/// The worst state of the bonds at each element. One bond does not speak for an element much larger than its other.
+/// The worst state of the bonds at each element. One bond does not speak for an element much larger than its
+/// other.
 std::vector<State> worst_states(const record::Frame& frame) {
   std::vector<State> worst(frame.position.size(), State::intact);
   for (const record::Bonds& bonds : frame.bonds)
@@ -177,13 +184,16 @@ std::vector<State> worst_states(const record::Frame& frame) {
       for (const int side : {0, 1}) {
         const auto here = static_cast<std::size_t>(bonds.ends[b][static_cast<std::size_t>(side)]);
         const auto there = static_cast<std::size_t>(bonds.ends[b][static_cast<std::size_t>(1 - side)]);
-        if (frame.radius[here] < 2.5 * frame.radius[there]) worst[here] = std::max(worst[here], bonds.state[b]);
+        if (frame.radius[here] < 2.5 * frame.radius[there])
+          worst[here] = std::max(worst[here], bonds.state[b]);
       }
   return worst;
 }
 
 Color color_of(State state) {
-  return state == State::broken ? palette::broken : state == State::softening ? palette::softening : palette::elastic;
+  return state == State::broken      ? palette::broken
+         : state == State::softening ? palette::softening
+                                     : palette::elastic;
 }
 
 Color base_color(const Stage& stage, std::int64_t id) {
@@ -220,7 +230,8 @@ void draw_bodies(Canvas& canvas, const Stage& stage, const record::Frame& frame,
   canvas.darken_hollows(4 * mean_radius(frame), 0.42F);
 }
 
-void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Index, 2>& ends, const Vec3& toward, Color c) {
+void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Index, 2>& ends,
+               const Vec3& toward, Color c) {
   const auto i = static_cast<std::size_t>(ends[0]), j = static_cast<std::size_t>(ends[1]);
   const Vec3 a = at_rest(frame, i), b = at_rest(frame, j);
   const Real smaller = std::min(frame.radius[i], frame.radius[j]);
@@ -231,7 +242,8 @@ void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Inde
 
 void draw_bonds(Canvas& canvas, const Stage& stage, const record::Frame& frame, const Vec3& toward) {
   const auto place = [&](std::size_t i) { return at_rest(frame, i); };
-  for (const std::size_t i : front_to_back(frame, place, toward)) canvas.sphere(place(i), frame.radius[i], palette::body);
+  for (const std::size_t i : front_to_back(frame, place, toward))
+    canvas.sphere(place(i), frame.radius[i], palette::body);
   canvas.darken_hollows(4 * mean_radius(frame));
   canvas.fade(0.38F);
   // Broken over softening over elastic: what went wrong is never hidden by what is sound.
@@ -253,8 +265,8 @@ void complete_displacement(record::Frame& frame, const record::Frame& first) {
   for (std::size_t i = 0; i < first.id.size(); ++i) row[first.id[i]] = i;
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     const auto found = row.find(frame.id[i]);
-    frame.displacement.push_back(found == row.end() ? Vec3(Vec3::Zero())
-                                                    : Vec3(frame.position[i] - at_rest(first, found->second)));
+    frame.displacement.push_back(
+        found == row.end() ? Vec3(Vec3::Zero()) : Vec3(frame.position[i] - at_rest(first, found->second)));
   }
 }
 
@@ -271,12 +283,14 @@ Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown
   const Box around = stage_box(stage, rest, shown);
   stage.views.push_back(view_along(Show::bodies, name, bodies, around, margin));
   if (bonds >= 0) {
-    View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface", bonds, rest, margin);
+    View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface",
+                           bonds, rest, margin);
     // One scale above the other where both have the same axis to the right, so that fronts stand in line.
     View& side = stage.views.front();
     if (plan.camera.right == side.camera.right) {
       plan.camera.width = side.camera.width;
-      plan.camera.centre += (side.camera.centre - plan.camera.centre).dot(plan.camera.right) * plan.camera.right;
+      plan.camera.centre +=
+          (side.camera.centre - plan.camera.centre).dot(plan.camera.right) * plan.camera.right;
     }
     stage.views.push_back(plan);
   }

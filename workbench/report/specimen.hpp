@@ -1,6 +1,6 @@
 #pragma once
-// How a specimen is looked at: which directions show it best, how much its displacements are magnified, what is
-// coloured how. One stage serves all frames of a run, so that its pictures can be compared.
+// How a specimen is looked at: which directions show it best, how much its displacements are magnified, what
+// is coloured how. One stage serves all frames of a run, so that its pictures can be compared.
 
 #include <map>
 #include <string>
@@ -22,7 +22,8 @@ constexpr Color sets[] = {color(0xC9CED6), color(0x9FB4C7), color(0xD6CBB3), col
 
 enum class Show {
   bodies,  ///< the elements, deformed, tinted where their bonds soften or are broken
-  bonds,   ///< the interface and every bond that is no longer sound, over a faint specimen that is not deformed
+  bonds,   ///< the interface and every bond that is no longer sound, over a faint specimen that is not
+           ///< deformed
 };
 
 struct View {
@@ -39,8 +40,8 @@ struct Legend {
 struct Stage {
   std::vector<View> views;
   Real magnification = 1;
-  std::vector<std::string> interfaces;                      ///< families that soften, and are few enough to be drawn whole
-  std::map<std::int64_t, Color> element_color;              ///< by id; others have the colour of the body
+  std::vector<std::string> interfaces;  ///< families that soften, and are few enough to be drawn whole
+  std::map<std::int64_t, Color> element_color;  ///< by id; others have the colour of the body
   std::vector<Legend> sets;
 };
 

@@ -21,7 +21,8 @@ struct Table {
   const Column* find(const std::string& name) const;  ///< nullptr if there is none
 };
 
-/// A row that is not whole is dropped and counted. `growing`: a last line without its end is one still being written.
+/// A row that is not whole is dropped and counted. `growing`: a last line without its end is one still being
+/// written.
 Table parse_table(const std::string& text, bool growing);
 Table read_table(const std::filesystem::path&, bool growing);
 

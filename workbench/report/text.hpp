@@ -12,9 +12,9 @@ std::string escaped(std::string_view);
 
 /// Four significant digits: "0.2333", "40 000", "5 x 10^-8" with real superscripts. "-" if not finite.
 std::string number(double value, int significant = 4);
-std::string count(std::int64_t);                  ///< digits in groups of three
-std::string duration(double seconds);             ///< "20 min 34 s"
-std::string percent(double share);                ///< "1.2 %"
+std::string count(std::int64_t);                             ///< digits in groups of three
+std::string duration(double seconds);                        ///< "20 min 34 s"
+std::string percent(double share);                           ///< "1.2 %"
 std::string plural(std::int64_t n, const std::string& one);  ///< "1 frame", "3 frames"
 
 /// "bond_updates_per_second" -> "bond updates per second"
