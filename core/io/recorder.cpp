@@ -148,18 +148,11 @@ void set_aside(const path& record, const path& frames_folder) {
   if (::rename(record.c_str(), aside.c_str()) != 0) throw file_failure("set aside", record, errno);
 }
 
-// Asks the system for the space beforehand: HDF5 recovers badly from a disk that fills up under its hands.
+// Asks the system for the space beforehand: HDF5 does not survive a disk that fills up while it copies an object.
 void reserve(const path& part, std::uintmax_t size) {
-  const Descriptor out(::open(part.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  const Descriptor out(::open(part.c_str(), O_RDWR | O_CLOEXEC));
   if (!out) throw file_failure("write", part, errno);
-  if (::fallocate(out.number(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size)) == 0) return;
-  if (errno != EOPNOTSUPP && errno != ENOSYS) throw file_failure("write", part, errno);
-}
-
-void give_back_what_was_not_used(const path& part) {
-  std::error_code error;
-  const auto size = fs::file_size(part, error);
-  if (!error) fs::resize_file(part, size, error);
+  if (const int error = ::posix_fallocate(out.number(), 0, static_cast<off_t>(size))) throw file_failure("write", part, error);
 }
 
 }  // namespace
@@ -267,14 +260,12 @@ void Recorder::write_view() const {
   write_atomically(view_, xdmf_document(parts));
 }
 
-void Recorder::write_one_file(const path& part, const Domain& domain) const {
-  std::uintmax_t size = 1 << 20;
-  for (const path& file : files_in(frames_folder_)) size += fs::file_size(file);
-  size += 100 * domain.breaks().breaks.size();
-  reserve(part, size);
+// Returns the length of what was written; the file itself may be longer by what was reserved and not needed.
+std::uintmax_t Recorder::write_one_file(const path& part, const Domain& domain) const {
   const h5::Handle access = h5::take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file");
   H5Pset_file_locking(access.id(), false, true);
   const h5::Handle out = h5::take(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
+  reserve(part, room_for_one_file());
   write_all_but_frames(out.id(), meta_, domain);
   const h5::Handle frames = h5::make_group(out.id(), "frames");
   for (const auto& [step, source] : frames_) {
@@ -283,14 +274,24 @@ void Recorder::write_one_file(const path& part, const Domain& domain) const {
               "copy frame " + name_of(step));
   }
   h5::check(H5Fflush(out.id(), H5F_SCOPE_GLOBAL), "finish '" + part.string() + "'");
+  hsize_t size = 0;
+  h5::check(H5Fget_filesize(out.id(), &size), "finish '" + part.string() + "'");
+  return size;
+}
+
+std::uintmax_t Recorder::room_for_one_file() const {
+  std::uintmax_t size = fs::file_size(record_) + (1 << 20);
+  for (const path& file : files_in(frames_folder_)) size += fs::file_size(file);
+  return size + 4096 * frames_.size();
 }
 
 bool Recorder::consolidate(const Domain& domain, std::string& reason) {
   const h5::Silence silence;
+  require_open();
   const path part = part_of(record_);
   try {
-    write_one_file(part, domain);
-    give_back_what_was_not_used(part);
+    write_master(domain);
+    fs::resize_file(part, write_one_file(part, domain));
     put_in_place(part, record_);
   } catch (const std::exception& failure) {
     std::error_code error;

@@ -75,7 +75,8 @@ class Recorder {
 
   Recorder(const RunFolder& folder, RunMeta meta, Options options);
   void take_up(std::int64_t step);
-  void write_one_file(const std::filesystem::path& part, const Domain& domain) const;
+  std::uintmax_t write_one_file(const std::filesystem::path& part, const Domain& domain) const;
+  std::uintmax_t room_for_one_file() const;
   void take_up_file(const std::string& file, std::int64_t step);
   void write_master(const Domain& domain) const;
   void write_view() const;
