@@ -9,11 +9,13 @@
 namespace beadwork::test {
 
 inline Vec3 random_vector(Random& random, Real deviation) {
-  return Vec3(random.normal(), random.normal(), random.normal()) * deviation;
+  const Real x = random.normal(), y = random.normal(),
+             z = random.normal();  // compilers order arguments differently
+  return Vec3(x, y, z) * deviation;
 }
 
 inline Quat random_rotation(Random& random) {
-  return normalise(Quat{random.normal(), random_vector(random, 1)});
+  return normalise(Quat{random.normal(), random_vector(random, 1)});  // braces: from left to right
 }
 
 /// Two elements in space.

@@ -70,7 +70,8 @@ struct State {
 };
 State random_state(Random& random) {
   const auto vector = [&](Real size) {
-    return Vec3(random.normal() * size, random.normal() * size, random.normal() * size);
+    const Real x = random.normal(), y = random.normal(), z = random.normal();
+    return Vec3(x * size, y * size, z * size);
   };
   return {Vec3(1, 0.5, -0.2) + vector(0.3), exp_map(vector(0.3)), exp_map(vector(0.3))};
 }
