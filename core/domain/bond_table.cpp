@@ -67,7 +67,7 @@ Index BondTable::cut(Index elements, Index halo_begin) {
     chunk.end = row;
     // Broken rows that are not swept yet may stand among the live ones, when a checkpoint was written between the two.
     chunk.live_end = chunk.end;
-    while (chunk.live_end > chunk.begin && state_[chunk.live_end - 1] >= State::broken) --chunk.live_end;
+    while (!broken_act_ && chunk.live_end > chunk.begin && state_[chunk.live_end - 1] >= State::broken) --chunk.live_end;
     chunk.halo_begin = halo;
     std::map<Index, Index> outside;  // element -> its halo row, in the order of elements
     for (Index b = chunk.begin; b < chunk.end; ++b)
@@ -83,21 +83,17 @@ Index BondTable::cut(Index elements, Index halo_begin) {
   return halo;
 }
 
-bool BondTable::sweep() {
-  std::vector<Index> order(static_cast<std::size_t>(size()));
-  std::iota(order.begin(), order.end(), 0);
-  bool moved = false;
+void BondTable::sweep() {
+  if (broken_act_) return;
+  std::vector<Index> order;
   for (Chunk& chunk : chunks_) {
-    const auto begin = order.begin() + chunk.begin;
-    const auto live_end = order.begin() + chunk.live_end;
-    const auto middle = std::stable_partition(begin, live_end, [&](Index b) { return state_[b] < State::broken; });
-    moved |= middle != live_end;
-    chunk.live_end = static_cast<Index>(middle - order.begin());
+    order.resize(static_cast<std::size_t>(chunk.live_end - chunk.begin));
+    std::iota(order.begin(), order.end(), chunk.begin);
+    const auto middle = std::stable_partition(order.begin(), order.end(), [&](Index b) { return state_[b] < State::broken; });
+    if (middle == order.end()) continue;
+    rows_.permute_range(chunk.begin, order);
+    chunk.live_end = chunk.begin + static_cast<Index>(middle - order.begin());
   }
-  if (!moved) return false;
-  rows_.permute(order);
-  rebind();
-  return true;
 }
 
 }  // namespace beadwork

@@ -36,6 +36,8 @@ class BondTable {
   const Table& rows() const { return rows_; }
   Index size() const { return rows_.size(); }
   Index live() const;
+  /// Broken bonds of this family still act: they are not swept behind the live ones.
+  void keep_broken_live() { broken_act_ = true; }
 
   /// Makes one row per pair, first < second, sorted by (first, second); ids count from `first_id`.
   void create(std::vector<std::pair<Index, Index>> pairs, Index first_id);
@@ -56,8 +58,8 @@ class BondTable {
   void rebind();
 
   /// Moves rows whose state is `broken` behind the live ones of their chunk; the order of ids among the live rows,
-  /// and so every sum, stays. Returns true if rows moved.
-  bool sweep();
+  /// and so every sum, stays. Views stay valid.
+  void sweep();
 
  private:
   std::string name_;
@@ -66,6 +68,7 @@ class BondTable {
   std::vector<std::pair<Index, Index>> halo_;
   View<Index> first_, second_, target_, id_;
   View<State> state_;
+  bool broken_act_ = false;
 };
 
 }  // namespace beadwork

@@ -90,6 +90,21 @@ void Table::permute(std::span<const Index> order) {
   for (const std::string& line : lines()) lay_out(line, size_, order.data());
 }
 
+void Table::permute_range(Index begin, std::span<const Index> order) {
+  std::vector<std::byte> moved;
+  for (const auto& column : columns_) {
+    const std::size_t width = component_bytes(column->field().type);
+    moved.resize(width * order.size());
+    for (std::size_t c = 0; c < static_cast<std::size_t>(components(column->field().type)); ++c) {
+      std::byte* plane = column->base_ + c * column->plane_;
+      for (std::size_t k = 0; k < order.size(); ++k)
+        std::memcpy(moved.data() + k * width, plane + static_cast<std::size_t>(order[k]) * column->stride_, width);
+      for (std::size_t k = 0; k < order.size(); ++k)
+        std::memcpy(plane + (static_cast<std::size_t>(begin) + k) * column->stride_, moved.data() + k * width, width);
+    }
+  }
+}
+
 std::size_t Table::memory() const {
   std::size_t total = 0;
   for (const Storage& storage : storage_) total += storage.block ? storage.block->size() : 0;

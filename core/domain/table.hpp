@@ -75,6 +75,8 @@ class Table {
   void reserve_beyond(std::string_view line, Index extra);
   /// New row i takes what stood in row order[i]; the length may shrink.
   void permute(std::span<const Index> order);
+  /// As `permute`, for the rows from `begin` on, in place: views stay valid.
+  void permute_range(Index begin, std::span<const Index> order);
   std::size_t memory() const;
 
  private:

@@ -5,7 +5,7 @@ set(BEADWORK_SANITIZE "" CACHE STRING "Sanitizers to build with, for -fsanitize=
 add_library(beadwork_flags INTERFACE)
 target_compile_options(beadwork_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-semantic-interposition
-  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-unknown-pragmas>)
+  $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-unknown-pragmas;$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>)
 if(BEADWORK_SANITIZE)
   target_compile_options(beadwork_flags INTERFACE -fsanitize=${BEADWORK_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(beadwork_flags INTERFACE -fsanitize=${BEADWORK_SANITIZE})

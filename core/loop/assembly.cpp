@@ -1,0 +1,221 @@
+#include "core/loop/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/text.hpp"
+#include "core/deck/read.hpp"
+#include "core/plugin/stamp.hpp"
+
+namespace beadwork {
+
+namespace {
+
+std::optional<Kind> kind_of(const std::string& tag) {
+  for (const Kind kind : all_kinds)
+    if (tag == kind_name(kind)) return kind;
+  return std::nullopt;
+}
+
+std::vector<std::string> section_names(bool inside_stage) {
+  std::vector<std::string> names;
+  for (const Kind kind : all_kinds)
+    if (kind != Kind::derive && !(inside_stage && kind == Kind::fill)) names.push_back(kind_name(kind));
+  if (!inside_stage) names.push_back("stage");
+  return names;
+}
+
+}  // namespace
+
+std::unique_ptr<Scene> Scene::assemble(const Deck& deck, const Catalogue& catalogue, Complaints& complaints) {
+  auto scene = std::make_unique<Scene>();
+  Assembly(deck, catalogue, complaints, *scene).run();
+  if (complaints.errors() > 0) return nullptr;
+  return scene;
+}
+
+std::size_t Scene::first_stage(const BondLaw& law) const {
+  for (std::size_t s = 0; s < stages.size(); ++s)
+    for (const BondLaw* there : stages[s].laws)
+      if (there == &law) return s;
+  return stages.size();
+}
+
+const BondLaw* Scene::law_of(const std::string& family) const {
+  for (const auto& plugin : plugins)
+    if (const auto* law = dynamic_cast<const BondLaw*>(plugin.get()); law && law->family() == family) return law;
+  return nullptr;
+}
+
+void Assembly::run() {
+  scene_.domain = std::make_unique<Domain>();
+  read_root();
+  if (complaints_.errors() == 0) {
+    for (const auto& plugin : scene_.plugins) plugin->check(complaints_);
+    for (const auto& plugin : scene_.plugins) plugin->choose();
+  }
+  merge_common_into_stages();
+  check_names();
+  for (Stage& stage : scene_.stages) check_stage(stage);
+  deck_.scope.complain_about_unused(complaints_);
+  if (complaints_.errors() == 0) lay_out_fields();
+}
+
+void Assembly::read_root() {
+  const Node& root = *deck_.root;
+  PlainNode plain{"scene", {}, {}};
+  scene_.name = std::filesystem::path(deck_.path).stem().string();
+  scene_.deck_path = deck_.path;
+  scene_.deck_sha256 = deck_.sha256;
+  if (!deck_.sources.empty()) scene_.deck_text = deck_.sources.front()->text;
+  for (const Attribute& attribute : root.attributes) {
+    if (attribute.name == "name") {
+      if (const auto text = read_text(attribute, deck_.scope, complaints_)) scene_.name = *text;
+    } else if (attribute.name == "seed") {
+      const auto seed = read_integer(attribute, deck_.scope, complaints_);
+      if (seed && *seed < 0) complaints_.error(attribute.value_at, fmt::format("'seed' must be >= 0, got \"{}\"", attribute.value));
+      if (seed) scene_.seed = static_cast<std::uint64_t>(*seed);
+    } else if (attribute.name != "plugins") {
+      complaints_.error(attribute.name_at, fmt::format("<scene> has no attribute '{}'{}", attribute.name,
+                                                       did_you_mean(attribute.name, {"name", "seed", "plugins"})));
+    }
+  }
+  plain.attributes = {{"name", scene_.name}, {"seed", std::to_string(scene_.seed)}};
+  read_sections(root, common_, plain, false);
+  scene_.resolved = resolved_xml(plain);
+}
+
+void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain, bool inside_stage) {
+  for (const auto& child : parent.children) {
+    const auto kind = kind_of(child->tag);
+    if (kind && *kind != Kind::derive && !(inside_stage && *kind == Kind::fill)) {
+      for (const Attribute& attribute : child->attributes)
+        complaints_.error(attribute.name_at, fmt::format("<{}> takes no attributes", child->tag));
+      PlainNode& section = plain.children.emplace_back(PlainNode{child->tag, {}, {}});
+      read_section(*kind, *child, stage, section);
+    } else if (child->tag == "stage" && !inside_stage) {
+      Stage& made = scene_.stages.emplace_back();
+      made.at = child->at;
+      made.name = fmt::format("stage-{}", scene_.stages.size());
+      PlainNode& node = plain.children.emplace_back(PlainNode{"stage", {}, {}});
+      for (const Attribute& attribute : child->attributes) {
+        if (attribute.name == "name") {
+          if (const auto text = read_text(attribute, deck_.scope, complaints_)) made.name = *text;
+        } else if (attribute.name != "until") {
+          complaints_.error(attribute.name_at, fmt::format("<stage> has no attribute '{}'{}", attribute.name,
+                                                           did_you_mean(attribute.name, {"name", "until"})));
+        }
+      }
+      node.attributes.push_back({"name", made.name});
+      if (const Attribute* until = child->find("until")) node.attributes.push_back({"until", until->value});
+      until_nodes_[made.name] = child.get();
+      read_sections(*child, made, node, true);
+    } else {
+      const auto known = section_names(inside_stage);
+      complaints_.error(child->at, fmt::format("no section <{}> in <{}>{}", child->tag, parent.tag,
+                                               did_you_mean(child->tag, known, "<", ">")));
+    }
+  }
+}
+
+void Assembly::read_section(Kind kind, const Node& section, Stage& stage, PlainNode& plain) {
+  for (const auto& node : section.children) {
+    std::unique_ptr<Plugin> plugin = catalogue_.make(kind, node->tag);
+    if (!plugin) {
+      complain_of_tag(kind, *node);
+      continue;
+    }
+    const std::string base = fmt::format("{}.{}", kind_name(kind), node->tag);
+    const int number = ++counts_[base];
+    plugin->configure(*node, number == 1 ? base : fmt::format("{}.{}", base, number), deck_.scope, complaints_);
+    plain.children.push_back(resolved(*plugin));
+    enlist(*plugin, kind, stage);
+    scene_.plugins.push_back(std::move(plugin));
+  }
+}
+
+void Assembly::complain_of_tag(Kind kind, const Node& node) {
+  const auto elsewhere = catalogue_.kinds_of(node.tag);
+  if (!elsewhere.empty()) {
+    complaints_.error(node.at, fmt::format("<{}> belongs in <{}>, not in <{}>", node.tag, kind_name(elsewhere.front()), kind_name(kind)));
+    return;
+  }
+  complaints_.error(node.at, fmt::format("no <{}> in <{}>{}", node.tag, kind_name(kind),
+                                         did_you_mean(node.tag, catalogue_.tags(kind), "<", ">")));
+}
+
+void Assembly::enlist(Plugin& plugin, Kind kind, Stage& stage) {
+  switch (kind) {
+    case Kind::fill: scene_.fillers.push_back(static_cast<Filler*>(&plugin)); break;
+    case Kind::bond: stage.laws.push_back(static_cast<BondLaw*>(&plugin)); break;
+    case Kind::load: stage.loads.push_back(static_cast<Load*>(&plugin)); break;
+    case Kind::move: stage.movers.push_back(static_cast<Mover*>(&plugin)); break;
+    case Kind::fail: stage.failures.push_back(static_cast<Failure*>(&plugin)); break;
+    case Kind::watch: stage.watchers.push_back(static_cast<Watcher*>(&plugin)); break;
+    case Kind::derive: break;
+  }
+}
+
+PlainNode Assembly::resolved(const Plugin& plugin) const {
+  PlainNode node{plugin.tag(), {}, {}};
+  for (const ParamBase* p : plugin.params())
+    if (p->given()) node.attributes.push_back({p->info().name, p->text()});
+  return node;
+}
+
+void Assembly::merge_common_into_stages() {
+  if (scene_.stages.empty()) {
+    common_.name = "run";
+    common_.at = deck_.root->at;
+    scene_.stages.push_back(common_);
+    return;
+  }
+  const auto front = [](auto& into, const auto& from) { into.insert(into.begin(), from.begin(), from.end()); };
+  for (Stage& stage : scene_.stages) {
+    front(stage.laws, common_.laws);
+    front(stage.loads, common_.loads);
+    front(stage.movers, common_.movers);
+    front(stage.failures, common_.failures);
+    front(stage.watchers, common_.watchers);
+  }
+}
+
+void Assembly::check_stage(Stage& stage) {
+  if (stage.movers.size() != 1) {
+    const std::string where = stage.name == "run" ? "a deck" : fmt::format("stage '{}'", stage.name);
+    complaints_.error(stage.movers.empty() ? stage.at : stage.movers[1]->at(),
+                      fmt::format("{} wants exactly one mover in <move>, got {}", where, stage.movers.size()));
+    return;
+  }
+  compile_until(stage);
+}
+
+void Assembly::compile_until(Stage& stage) {
+  std::string text;
+  Location at = stage.at;
+  const auto node = until_nodes_.find(stage.name);
+  const Attribute* own = node == until_nodes_.end() ? nullptr : node->second->find("until");
+  if (own) {
+    const auto read = read_text(*own, deck_.scope, complaints_);
+    if (!read) return;
+    text = *read;
+    at = own->value_at;
+  } else if (stage.mover().until.given()) {
+    text = *stage.mover().until;
+    at = stage.mover().until.at();
+  } else {
+    complaints_.error(stage.mover().at(), fmt::format("<{}> needs 'until': {}", stage.mover().tag(), stage.mover().until.info().doc));
+    return;
+  }
+  stage.until = Until::compile(text, at, deck_.scope, complaints_);
+  if (!stage.until) return;
+  for (const std::string& set : stage.until->sets()) {
+    bool driven = false;
+    for (const Load* load : stage.loads)
+      for (const Constraint& c : load->constraints()) driven |= c.driven && c.set == set;
+    if (!driven) complaints_.error(at, fmt::format("'until' watches set '{}', which nothing in <load> drives", set));
+  }
+}
+
+}  // namespace beadwork

@@ -1,0 +1,57 @@
+#pragma once
+// Makes a scene of a deck: first the plugins, then the names that they give one another, then the columns.
+
+#include <map>
+#include <set>
+
+#include "core/deck/write.hpp"
+#include "core/loop/scene.hpp"
+
+namespace beadwork {
+
+class Assembly {
+ public:
+  Assembly(const Deck& deck, const Catalogue& catalogue, Complaints& complaints, Scene& scene)
+      : deck_(deck), catalogue_(catalogue), complaints_(complaints), scene_(scene) {}
+  void run();
+
+ private:
+  // plugins of the deck (assembly.cpp)
+  void read_root();
+  void read_sections(const Node& parent, Stage& stage, PlainNode& plain, bool inside_stage);
+  void read_section(Kind kind, const Node& section, Stage& stage, PlainNode& plain);
+  void complain_of_tag(Kind kind, const Node& node);
+  void enlist(Plugin& plugin, Kind kind, Stage& stage);
+  PlainNode resolved(const Plugin& plugin) const;
+  void merge_common_into_stages();
+  void check_stage(Stage& stage);
+  void compile_until(Stage& stage);
+
+  // names (assembly_names.cpp)
+  void check_names();
+  void check_uses_of(Role role, const std::string& what, const std::set<std::string>& known);
+  std::set<std::string> made_names(Role role, const std::string& what);
+
+  // columns (assembly_fields.cpp)
+  void lay_out_fields();
+  void choose_rotations();
+  void add_families();
+  void add_provided();
+  void meet_readers();
+  void meet(const Plugin& reader, const FieldUse& use);
+  void meet_names(const Plugin& reader, const ParamBase& fields);
+  bool provide(On on, const std::string& name, const std::string& family);
+  bool derive(const std::string& name);
+  std::vector<std::string> providable(On on, const std::string& family) const;
+  Table* table_of(const Plugin& plugin, On on) const;
+
+  const Deck& deck_;
+  const Catalogue& catalogue_;
+  Complaints& complaints_;
+  Scene& scene_;
+  Stage common_;
+  std::map<std::string, const Node*> until_nodes_;
+  std::map<std::string, int> counts_;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/text.hpp"
+#include "core/loop/assembly.hpp"
+
+namespace beadwork {
+
+void Assembly::lay_out_fields() {
+  choose_rotations();
+  add_families();
+  add_provided();
+  meet_readers();
+}
+
+// Rotations are integrated only if somebody reads orientations or adds torques.
+void Assembly::choose_rotations() {
+  bool wanted = false;
+  for (const auto& plugin : scene_.plugins) {
+    if (dynamic_cast<const Mover*>(plugin.get())) continue;
+    for (const FieldUse* use : plugin->uses())
+      wanted |= use->wanted() && use->field().on == On::elements &&
+                (use->field().name == "orientation" || use->field().name == "torque" || use->field().name == "spin");
+  }
+  for (const auto& plugin : scene_.plugins)
+    if (auto* mover = dynamic_cast<Mover*>(plugin.get())) mover->choose_rotations(wanted);
+}
+
+void Assembly::add_families() {
+  for (const auto& plugin : scene_.plugins)
+    if (const auto* law = dynamic_cast<const BondLaw*>(plugin.get())) {
+      scene_.families.push_back(law->family());
+      scene_.domain->add_family(law->family());
+    }
+}
+
+Table* Assembly::table_of(const Plugin& plugin, On on) const {
+  if (on == On::elements) return &scene_.domain->elements();
+  if (on == On::scene) return &scene_.domain->scene();
+  BondTable* family = scene_.domain->find_family(plugin.family());
+  return family ? &family->rows() : nullptr;
+}
+
+// What is kept, added to or filled exists for sure.
+void Assembly::add_provided() {
+  for (const auto& plugin : scene_.plugins) {
+    const bool fills = dynamic_cast<const Filler*>(plugin.get()) != nullptr;
+    for (const FieldUse* use : plugin->uses()) {
+      if (!use->wanted() || use->verb() == Verb::reads || (use->verb() == Verb::writes && !fills)) continue;
+      Table* table = table_of(*plugin, use->field().on);
+      if (!table) continue;
+      Field field = use->field();
+      field.name = plugin->column_name(*use);
+      Column& column = table->add(field);
+      if (use->verb() == Verb::keeps || fills) column.keep();
+    }
+  }
+}
+
+void Assembly::meet_readers() {
+  // By index: a reader may bring in a plugin that derives a field, which then reads itself.
+  for (std::size_t p = 0; p < scene_.plugins.size(); ++p) {
+    const Plugin& plugin = *scene_.plugins[p];
+    for (const FieldUse* use : plugin.uses())
+      if (use->wanted() && use->verb() == Verb::reads) meet(plugin, *use);
+    for (const ParamBase* param : plugin.params())
+      if (param->info().role == Role::fields && param->given()) meet_names(plugin, *param);
+  }
+}
+
+void Assembly::meet(const Plugin& reader, const FieldUse& use) {
+  const On on = use.field().on;
+  Table* table = table_of(reader, on);
+  if (!table) return;
+  if (on == On::bonds && provide(on, use.field().name, reader.family())) {
+    scene_.section_readers.insert(&reader);
+    return;
+  }
+  if (table->find(reader.column_name(use)) || provide(on, use.field().name, reader.family())) return;
+  if (on == On::elements && derive(use.field().name)) return;
+  const std::string holder = on == On::bonds ? fmt::format("bond family '{}'", reader.family()) : "the elements";
+  complaints_.error(reader.at(), fmt::format("<{}> reads '{}' of {}, which nothing in this deck provides{}", reader.tag(),
+                                             use.field().name, holder,
+                                             did_you_mean(use.field().name, providable(on, reader.family()))));
+}
+
+// Fields asked for by name, wherever they are: on the elements, on every family that has them.
+void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
+  for (const std::string& name : fields.names()) {
+    bool found = scene_.domain->elements().find(name) != nullptr || provide(On::elements, name, "");
+    for (const std::string& family : scene_.families) {
+      const bool offered = provide(On::bonds, name, family);
+      if (offered) scene_.section_readers.insert(&reader);
+      found |= offered || scene_.domain->find_family(family)->rows().find(name);
+    }
+    if (found || derive(name)) continue;
+    std::vector<std::string> known = providable(On::elements, "");
+    for (const std::string& family : scene_.families)
+      for (const std::string& more : providable(On::bonds, family)) known.push_back(more);
+    complaints_.error(fields.at(), fmt::format("'{}' names field \"{}\", which nothing in this deck provides{}", fields.info().name,
+                                               name, did_you_mean(name, known)));
+  }
+}
+
+// Takes up an offer: makes the column of a field that some plugin writes only if it is read.
+bool Assembly::provide(On on, const std::string& name, const std::string& family) {
+  bool found = false;
+  for (const auto& plugin : scene_.plugins)
+    for (const FieldUse* use : plugin->uses())
+      if (use->wanted() && use->verb() == Verb::writes && use->field().on == on && use->field().name == name &&
+          (on != On::bonds || plugin->family() == family)) {
+        table_of(*plugin, on)->add(use->field());
+        found = true;
+      }
+  return found;
+}
+
+bool Assembly::derive(const std::string& name) {
+  std::unique_ptr<Plugin> plugin = catalogue_.make(Kind::derive, name);
+  if (!plugin) return false;
+  Node silent;
+  silent.tag = name;
+  silent.at = deck_.root->at;
+  plugin->configure(silent, "derive." + name, deck_.scope, complaints_);
+  for (const FieldUse* use : plugin->uses())
+    if (use->verb() != Verb::reads) {
+      Column& column = table_of(*plugin, use->field().on)->add(use->field());
+      if (use->verb() == Verb::keeps) column.keep();
+    }
+  scene_.derived.push_back(static_cast<Derived*>(plugin.get()));
+  scene_.plugins.push_back(std::move(plugin));
+  return true;
+}
+
+std::vector<std::string> Assembly::providable(On on, const std::string& family) const {
+  std::set<std::string> names;
+  const Table* table = nullptr;
+  if (on == On::elements) table = &scene_.domain->elements();
+  if (on == On::bonds)
+    if (const BondTable* there = scene_.domain->find_family(family)) table = &there->rows();
+  if (table)
+    for (const Column* column : table->columns()) names.insert(column->field().name);
+  for (const auto& plugin : scene_.plugins)
+    for (const FieldUse* use : plugin->uses())
+      if (use->wanted() && use->verb() == Verb::writes && use->field().on == on && (on != On::bonds || plugin->family() == family))
+        names.insert(use->field().name);
+  if (on == On::elements)
+    for (const std::string& tag : catalogue_.tags(Kind::derive)) names.insert(tag);
+  return {names.begin(), names.end()};
+}
+
+}  // namespace beadwork

@@ -1,0 +1,192 @@
+#include "core/loop/run.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <set>
+
+#include "core/base/failure.hpp"
+#include "core/loop/run_curve.hpp"
+
+namespace beadwork {
+
+Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options)
+    : scene_(scene), catalogue_(catalogue), folder_(folder), options_(std::move(options)), began_(Clock::now()), saved_(began_), shown_(began_) {
+  omp_set_num_threads(options_.threads);
+  gather_constraints();
+  add_state_columns();
+}
+
+Run::~Run() = default;
+
+void Run::all() {
+  try {
+    if (options_.resume)
+      load();
+    else
+      fill();
+    open_record();
+    go_through_stages();
+    close("done", figures_.exit_reason);
+  } catch (const Interrupted& stop) {
+    save();
+    close("interrupted", stop.what());
+    throw;
+  } catch (const PhysicsFailure& failure) {
+    close("failed", failure.what());
+    throw;
+  } catch (const std::exception& failure) {
+    close("failed", failure.what());
+    throw;
+  }
+}
+
+void Run::go_through_stages() {
+  const auto first = stage_number();
+  for (std::size_t s = first; s < scene_.stages.size(); ++s) {
+    moment_.stage = static_cast<int>(s);
+    const bool resumed = options_.resume && s == first;
+    enter(stage(), resumed);
+    const auto start = Clock::now();
+    const Real before = figures_.loop_seconds;
+    while (!over()) {
+      step();
+      figures_.loop_seconds = before + std::chrono::duration<Real>(Clock::now() - start).count();
+      save_now_and_then();
+    }
+    figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
+  }
+  save();
+}
+
+void Run::enter(Stage& stage, bool resumed) {
+  if (!resumed) {
+    moment_.stage_start = moment_.time;
+    moment_.stage_step = moment_.step;
+    create_families(stage);
+  }
+  laws_.clear();
+  for (BondLaw* law : stage.laws)
+    if (law->acts_when_broken()) domain().find_family(law->family())->keep_broken_live();
+  for (BondLaw* law : stage.laws) laws_.emplace_back(law, domain().find_family(law->family()));
+  domain().cut_families();
+  bind_all();
+  if (!resumed) {
+    for (auto& [law, table] : laws_) {
+      if (scene_.first_stage(*law) != stage_number()) continue;
+      law->connect(domain(), *table);
+      options_.say(fmt::format("bond family '{}': {} bonds. {}", law->family(), table->size(), law->remark()));
+    }
+    for (Load* load : stage.loads) load->start(domain());
+    check_constraints(stage, constraints());
+  }
+  for (auto& [law, table] : laws_) live_[table] = table->live();
+  stage.mover().prepare(*this, resumed);
+  if (!resumed) look();
+}
+
+bool Run::over() {
+  if (options_.interrupt && *options_.interrupt)
+    throw Interrupted(fmt::format("interrupted at step {}; go on with: beadwork run {} --out {} --resume", moment_.step,
+                                  scene_.deck_path, folder_.root().string()));
+  return stage().until->reached(moment_, constraints(), until_maxima_[stage_number()]);
+}
+
+// Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
+void Run::step() {
+  stage().mover().step(*this);
+  for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
+  log_events();
+  break_bonds();
+  for (Load* load : stage().loads) load->account(domain(), moment_);
+  look();
+}
+
+void Run::evaluate(bool settle) {
+  Evaluation how{true, settle, sections_wanted()};
+  for (auto& [law, table] : laws_) {
+    law->act(domain(), *table, how);
+    how.clear = false;
+  }
+  if (how.clear) {
+    const auto force = domain().elements().column("force").view<Vec3>();
+    for (Index row = 0; row < domain().size(); ++row) force.set(row, zero<Vec3>());
+  }
+  domain().gather();
+  for (Load* load : stage().loads) load->push(domain(), moment_);
+}
+
+bool Run::sections_wanted() const {
+  if (scene_.section_readers.empty()) return false;
+  const Stage& now = scene_.stages[stage_number()];
+  for (const Failure* failure : now.failures)
+    if (moment_.step % *failure->every == 0) return true;
+  for (const Watcher* watcher : now.watchers)
+    if (scene_.section_readers.contains(watcher) && watcher->wants(moment_)) return true;
+  return false;
+}
+
+// Changes that a law itself has made while settling, such as a contact that opened.
+void Run::log_events() {
+  for (auto& [law, table] : laws_) {
+    if (law->events().empty()) continue;
+    BreakLog& log = domain().breaks();
+    const auto x = domain().elements().column("position").view<Vec3>();
+    for (const BondEvent& event : law->events()) {
+      const Vec3 place = 0.5 * (x[table->first()[event.row]] + x[table->second()[event.row]]);
+      log.breaks.push_back({moment_.time, moment_.step, static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin()),
+                            table->id()[event.row], log.mode(event.mode), place, event.energy});
+    }
+  }
+}
+
+// All criteria see one configuration; only then do bonds fall, each once, in the order of the deck's criteria.
+void Run::break_bonds() {
+  std::vector<std::pair<Failure*, std::vector<Index>>> verdicts;
+  for (Failure* failure : stage().failures) {
+    if (moment_.step % *failure->every != 0) continue;
+    auto rows = failure->judge(domain(), *domain().find_family(failure->family()));
+    if (!rows.empty()) verdicts.emplace_back(failure, std::move(rows));
+  }
+  if (verdicts.empty()) return;
+  std::set<BondTable*> touched;
+  const auto x = domain().elements().column("position").view<Vec3>();
+  BreakLog& log = domain().breaks();
+  for (auto& [failure, rows] : verdicts) {
+    const auto at = std::find_if(laws_.begin(), laws_.end(), [&](const auto& l) { return l.second->name() == failure->family(); });
+    if (at == laws_.end()) continue;
+    auto& [law, table] = *at;
+    const auto family = static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin());
+    for (const Index row : rows) {
+      if (table->state()[row] == State::broken) continue;
+      const Real energy = law->stored_energy(domain(), *table, row);
+      const Vec3 place = 0.5 * (x[table->first()[row]] + x[table->second()[row]]);
+      log.breaks.push_back({moment_.time, moment_.step, family, table->id()[row], log.mode(failure->mode()), place, energy});
+      released_[table] += energy;
+      law->withdraw(domain(), *table, row);
+      table->state()[row] = State::broken;
+      touched.insert(table);
+    }
+  }
+  for (BondTable* table : touched) {
+    table->sweep();
+    live_[table] = table->live();
+  }
+}
+
+void Run::look() {
+  std::set<const Derived*> done;
+  for (Watcher* watcher : stage().watchers) {
+    if (!watcher->wants(moment_)) continue;
+    for (Derived* derived : scene_.derived)
+      if (done.insert(derived).second) derived->derive(domain());
+    watcher->look(*this);
+  }
+}
+
+void Run::bind_all() {
+  for (const auto& plugin : scene_.plugins) plugin->bind(domain());
+}
+
+}  // namespace beadwork

@@ -1,0 +1,117 @@
+#pragma once
+// Runs a scene: fills it, goes through its stages step by step, lets watchers look, saves checkpoints. One way, from
+// the scene to the record.
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+
+#include "core/io/checkpoint.hpp"
+#include "core/io/curve.hpp"
+#include "core/io/recorder.hpp"
+#include "core/io/run_folder.hpp"
+#include "core/loop/scene.hpp"
+
+namespace beadwork {
+
+struct RunOptions {
+  int threads = 1;
+  bool resume = false;
+  Real checkpoint_seconds = 600;               ///< wall time between checkpoints
+  const std::atomic<int>* interrupt = nullptr;  ///< not zero: write a checkpoint and stop
+  std::function<void(const std::string&)> say = [](const std::string&) {};
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
+  std::function<void(Real fraction, const std::string&)> progress = [](Real, const std::string&) {};
+};
+
+/// What a run did, for summary.json.
+struct RunFigures {
+  std::string status = "running";
+  std::string exit_reason;
+  Real wall_seconds = 0, loop_seconds = 0;
+  Real bond_updates = 0;
+  std::vector<std::string> packing_reports;  ///< JSON objects
+};
+
+class Run final : private Workings, private Sight {
+ public:
+  Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options);
+  ~Run() override;
+
+  /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved.
+  void all();
+  const RunFigures& figures() const { return figures_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // the loop (run.cpp)
+  void go_through_stages();
+  void enter(Stage& stage, bool resumed);
+  bool over();
+  void step();
+  void evaluate(bool settle) override;
+  void break_bonds();
+  void log_events();
+  void look();
+  void bind_all();
+  bool sections_wanted() const;
+
+  // before the loop (run_setup.cpp)
+  void fill();
+  void add_state_columns();
+  void create_families(Stage& stage);
+  void gather_constraints();
+  void check_constraints(const Stage& stage, std::span<const Constraint> constraints) const;
+
+  // what is saved (run_record.cpp)
+  void open_record();
+  void store_state();
+  void restore_state();
+  void save();
+  void load();
+  void save_now_and_then();
+  void write_summary();
+  void close(const std::string& status, const std::string& reason);
+  void show_progress();
+  RunMeta meta() const;
+
+  // Workings
+  Domain& domain() override { return *scene_.domain; }
+  Moment& moment() override { return moment_; }
+  std::vector<Constraint>& constraints() override { return constraints_[stage_number()]; }
+  std::span<const std::pair<BondLaw*, BondTable*>> laws() const override { return laws_; }
+  void say(const std::string& line) override { options_.say(line); }
+
+  // Sight
+  const Domain& domain() const override { return *scene_.domain; }
+  const Moment& moment() const override { return moment_; }
+  std::span<const Constraint> constraints() const override { return constraints_[stage_number()]; }
+  const BondLaw* law(const std::string& family) const override { return scene_.law_of(family); }
+  void energies(EnergySink& sink) const override;
+  CurveSink& curve(const CurvePlan& plan) override;
+  void frame(const FramePlan& plan) override;
+
+  std::size_t stage_number() const { return static_cast<std::size_t>(moment_.stage); }
+  Stage& stage() { return scene_.stages[stage_number()]; }
+  Real& state(const std::string& name);
+
+  Scene& scene_;
+  const Catalogue& catalogue_;
+  RunFolder& folder_;
+  RunOptions options_;
+  RunFigures figures_;
+  Moment moment_;
+  std::vector<std::vector<Constraint>> constraints_;  ///< by stage
+  std::vector<std::vector<Real>> until_maxima_;       ///< by stage
+  std::vector<std::pair<BondLaw*, BondTable*>> laws_;
+  std::map<const BondTable*, Real> released_;  ///< energy of broken bonds [J]
+  std::map<const BondTable*, Index> live_;
+  struct OpenCurve;
+  std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
+  std::optional<Recorder> recorder_;
+  std::int64_t resumed_at_ = -1;
+  Clock::time_point began_, saved_, shown_;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+#include "core/loop/connect.hpp"
+#include "core/loop/run.hpp"
+#include "core/packing/order.hpp"
+
+namespace beadwork {
+
+void Run::fill() {
+  std::map<std::string, std::any> in_progress;
+  FillJob job;
+  job.seed = scene_.seed;
+  job.say = options_.say;
+  job.warn = options_.warn;
+  job.report = [&](const std::string& json) { figures_.packing_reports.push_back(json); };
+  job.resolve_path = [&](const std::string& path) {
+    return (std::filesystem::path(scene_.deck_path).parent_path() / path).string();
+  };
+  job.in_progress = &in_progress;
+  for (Filler* filler : scene_.fillers)
+    if (!filler->after_filling()) filler->fill(domain(), job);
+  if (domain().size() == 0)
+    throw DeckFailure(fmt::format("{}: error: the scene has no elements: <fill> needs a plugin that makes some", scene_.deck_path));
+
+  std::vector<Vec3> position(static_cast<std::size_t>(domain().size()));
+  const auto x = domain().elements().column("position").view<Vec3>();
+  for (Index row = 0; row < domain().size(); ++row) position[static_cast<std::size_t>(row)] = x[row];
+  domain().reorder(hilbert_order(position));
+  bind_all();
+  for (Filler* filler : scene_.fillers)
+    if (filler->after_filling()) filler->fill(domain(), job);
+}
+
+// What the loop itself has to remember, as columns of the scene.
+void Run::add_state_columns() {
+  const auto keep = [&](const std::string& name, const std::string& unit, const std::string& doc) {
+    domain().scene().add({name, On::scene, Type::real, unit, doc, ""}).keep();
+  };
+  keep("time-step", "s", "Time step");
+  keep("stage-start", "s", "Time at which the stage began");
+  keep("stage-step", "1", "Step at which the stage began");
+  keep("bond-updates", "1", "Sum over steps of live bonds");
+  keep("loop-seconds", "s", "Time spent in the loop");
+  for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds");
+  until_maxima_.resize(scene_.stages.size());
+  for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
+    until_maxima_[s].assign(scene_.stages[s].until->memory(), 0);
+    for (std::size_t k = 0; k < until_maxima_[s].size(); ++k) keep(fmt::format("until.{}.{}", s, k), "1", "Largest value so far");
+    for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
+      keep(fmt::format("reaction.{}.{}", s, k), "N", "Force that keeps a constraint");
+      keep(fmt::format("work.{}.{}", s, k), "J", "Work of a constraint");
+    }
+  }
+}
+
+void Run::create_families(Stage& stage) {
+  Index next_id = domain().bonds();
+  for (BondLaw* law : stage.laws) {
+    if (scene_.first_stage(*law) != stage_number()) continue;
+    BondTable& table = *domain().find_family(law->family());
+    table.create(pairs_to_bond(*law, domain()), next_id);
+    next_id += table.size();
+  }
+}
+
+void Run::gather_constraints() {
+  for (const Stage& stage : scene_.stages) {
+    auto& all = constraints_.emplace_back();
+    for (const Load* load : stage.loads)
+      for (Constraint& c : load->constraints()) all.push_back(std::move(c));
+  }
+}
+
+// One degree of freedom of an element has one master.
+void Run::check_constraints(const Stage& stage, std::span<const Constraint> constraints) const {
+  std::map<std::pair<Index, int>, const Constraint*> taken;
+  for (const Constraint& c : constraints) {
+    for (const Index row : domain().set(c.set)) {
+      const auto [there, fresh] = taken.try_emplace({row, c.axis}, &c);
+      if (fresh) continue;
+      const auto load = std::find_if(stage.loads.begin(), stage.loads.end(), [&](const Load* l) { return l->id() == c.by; });
+      throw DeckFailure(fmt::format("{}: error: axis {} of an element of set '{}' is already prescribed on set '{}'",
+                                    (*load)->at().where(), "xyz"[c.axis], c.set, there->second->set));
+    }
+  }
+}
+
+}  // namespace beadwork

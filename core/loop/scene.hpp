@@ -1,0 +1,56 @@
+#pragma once
+// Plugins, domain and schedule of one deck, checked against one another and ready to run.
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/deck/deck.hpp"
+#include "core/domain/domain.hpp"
+#include "core/loop/until.hpp"
+#include "core/plugin/catalogue.hpp"
+#include "core/plugin/kinds.hpp"
+
+namespace beadwork {
+
+/// What holds during one stage of a run. A deck without stages has one.
+struct Stage {
+  std::string name;
+  Location at;
+  std::vector<BondLaw*> laws;
+  std::vector<Load*> loads;
+  std::vector<Mover*> movers;  ///< exactly one, once checked
+  std::vector<Failure*> failures;
+  std::vector<Watcher*> watchers;
+  std::optional<Until> until;
+
+  Mover& mover() const { return *movers.front(); }
+};
+
+class Scene {
+ public:
+  /// Makes the plugins of the deck and checks them. What is wrong with the deck goes to `complaints`; nothing is
+  /// returned if there are errors.
+  static std::unique_ptr<Scene> assemble(const Deck& deck, const Catalogue& catalogue, Complaints& complaints);
+
+  std::string name;
+  std::uint64_t seed = 0;
+  std::string deck_path, deck_text, deck_sha256;
+  std::string resolved;  ///< the deck with every value in SI and every fallback written out
+
+  std::vector<std::unique_ptr<Plugin>> plugins;
+  std::vector<Filler*> fillers;
+  std::vector<Derived*> derived;
+  std::vector<Stage> stages;
+  std::vector<std::string> families;  ///< names, in the order of their tables
+  std::unique_ptr<Domain> domain;     ///< with every column that the plugins ask for, and no rows yet
+  std::set<const Plugin*> section_readers;  ///< plugins that read what bond laws offer of each bond
+
+  /// The stage in which a family first stands.
+  std::size_t first_stage(const BondLaw& law) const;
+  const BondLaw* law_of(const std::string& family) const;
+};
+
+}  // namespace beadwork

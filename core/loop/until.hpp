@@ -1,0 +1,68 @@
+#pragma once
+// When a stage ends.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/complaints.hpp"
+#include "core/deck/deck.hpp"
+#include "core/deck/expression.hpp"
+#include "core/plugin/kinds.hpp"
+
+namespace beadwork {
+
+/// Displacement [m] and force [N] of what is driven on a set, largest in magnitude over its driven constraints; on no
+/// set: over all.
+Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real time);
+Real driven_force(std::span<const Constraint> constraints, const std::string& set);
+
+/// Conditions joined by "or", each one of
+///   1 ms            a time since the stage began
+///   5000            a number of steps
+///   0.8 mm          a displacement of what is pulled
+///   force of right < 2 percent of its maximum      (also: displacement, > >= <=, or a value: < 3 N)
+///   time > 1 ms and displacement > 0.1 mm          a condition on time, step and displacement
+class Until {
+ public:
+  static std::optional<Until> compile(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints);
+
+  const std::string& text() const { return text_; }
+  /// Sets that the conditions name, with their places.
+  const std::vector<std::string>& sets() const { return sets_; }
+  /// How many numbers the conditions remember (largest values so far); they live in a scene column.
+  std::size_t memory() const;
+  /// True if the stage is over; `maxima` has memory() numbers.
+  bool reached(const Moment& moment, std::span<const Constraint> constraints, std::span<Real> maxima) const;
+  /// The condition that was met last, in words.
+  std::string met() const { return met_; }
+  /// Time [s] and number of steps after which the stage ends for certain, where that can be told beforehand.
+  std::optional<Real> time() const;
+  std::optional<std::int64_t> steps() const;
+  std::optional<Real> displacement() const;
+
+ private:
+  enum class What { time, steps, displacement, watched, condition };
+  struct Clause {
+    What what;
+    std::string text;
+    Real value = 0;
+    bool watches_force = false;
+    std::string set;
+    std::string comparison;
+    bool of_maximum = false;
+    std::optional<Expression> condition;
+  };
+  static std::optional<Clause> clause(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints);
+  static std::optional<Clause> watched(const std::vector<std::string>& words, const std::string& text, const Location& at,
+                                       const Scope& scope, Complaints& complaints);
+  static bool holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, Real& maximum);
+
+  std::string text_;
+  std::vector<Clause> clauses_;
+  std::vector<std::string> sets_;
+  mutable std::string met_;
+};
+
+}  // namespace beadwork

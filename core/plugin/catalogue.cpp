@@ -1,0 +1,92 @@
+#include "core/plugin/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <cstdlib>
+
+#include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+
+namespace beadwork {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> libraries_in(const fs::path& place) {
+  std::error_code ignored;
+  if (!fs::is_directory(place, ignored)) return {place};
+  std::vector<fs::path> found;
+  for (const auto& file : fs::directory_iterator(place, ignored))
+    if (file.path().extension() == ".so") found.push_back(file.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
+  std::vector<fs::path> places = extra;
+  if (const char* variable = std::getenv("BEADWORK_PLUGINS"))
+    for (const std::string& place : split(variable, ':'))
+      if (!place.empty()) places.emplace_back(place);
+  const fs::path core = boost::dll::this_line_location().string();
+  places.push_back(fs::canonical(core).parent_path() / "beadwork");
+
+  Catalogue catalogue;
+  std::vector<fs::path> opened;
+  for (const fs::path& place : places) {
+    for (const fs::path& path : libraries_in(place)) {
+      std::error_code ignored;
+      const fs::path real = fs::weakly_canonical(path, ignored);
+      if (std::find(opened.begin(), opened.end(), real) != opened.end()) continue;
+      opened.push_back(real);
+      catalogue.add(open_library(real));
+    }
+  }
+  return catalogue;
+}
+
+void Catalogue::add(Library library) {
+  for (const PluginEntry& entry : library.entries) {
+    const auto [there, fresh] = entries_.try_emplace({entry.kind, entry.tag}, Place{entry, library.path});
+    if (!fresh)
+      throw LibraryFailure(fmt::format("<{}> <{}> is in two plugin libraries: {} and {}. Remove or rename one of them",
+                                       kind_name(entry.kind), entry.tag, there->second.library.string(),
+                                       library.path.string()));
+  }
+  libraries_.push_back(std::move(library));
+}
+
+const PluginEntry* Catalogue::find(Kind kind, const std::string& tag) const {
+  const auto found = entries_.find({kind, tag});
+  return found == entries_.end() ? nullptr : &found->second.entry;
+}
+
+std::unique_ptr<Plugin> Catalogue::make(Kind kind, const std::string& tag) const {
+  const PluginEntry* found = find(kind, tag);
+  return found ? found->make() : nullptr;
+}
+
+std::vector<std::string> Catalogue::tags(Kind kind) const {
+  std::vector<std::string> names;
+  for (const auto& [key, place] : entries_)
+    if (key.first == kind) names.push_back(key.second);
+  return names;
+}
+
+std::vector<Kind> Catalogue::kinds_of(const std::string& tag) const {
+  std::vector<Kind> kinds;
+  for (const auto& [key, place] : entries_)
+    if (key.second == tag) kinds.push_back(key.first);
+  return kinds;
+}
+
+std::string Catalogue::library_of(Kind kind, const std::string& tag) const {
+  const auto found = entries_.find({kind, tag});
+  return found == entries_.end() ? "" : found->second.library.string();
+}
+
+}  // namespace beadwork

@@ -1,0 +1,40 @@
+#pragma once
+// All plugins that a scene may be made of. An object, not a global.
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/plugin/library.hpp"
+
+namespace beadwork {
+
+class Catalogue {
+ public:
+  /// Libraries are looked for in this order: `extra` (files or folders: the deck's, then the command line's), the
+  /// environment variable BEADWORK_PLUGINS (separated by ':'), and the folder `beadwork` beside the core library.
+  static Catalogue open(const std::vector<std::filesystem::path>& extra);
+
+  /// Throws LibraryFailure naming both libraries if the name is taken.
+  void add(Library library);
+
+  const PluginEntry* find(Kind kind, const std::string& tag) const;
+  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag) const;
+  std::vector<std::string> tags(Kind kind) const;
+  /// Every kind in which this tag is known.
+  std::vector<Kind> kinds_of(const std::string& tag) const;
+  const std::vector<Library>& libraries() const { return libraries_; }
+  std::string library_of(Kind kind, const std::string& tag) const;
+
+ private:
+  struct Place {
+    PluginEntry entry;
+    std::filesystem::path library;
+  };
+  std::map<std::pair<Kind, std::string>, Place> entries_;
+  std::vector<Library> libraries_;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,250 @@
+#pragma once
+// The kinds of plugins: in which section of a deck each stands, when it runs, and what it may change.
+
+#include <any>
+#include <functional>
+#include <map>
+#include <span>
+
+#include "core/mechanics/ramp.hpp"
+#include "core/mechanics/stiffness.hpp"
+#include "core/plugin/plugin.hpp"
+
+namespace beadwork {
+
+
+/// Where the run stands.
+struct Moment {
+  Real time = 0;            ///< [s]
+  std::int64_t step = 0;
+  Real time_step = 0;       ///< [s]
+  int stage = 0;
+  Real stage_start = 0;     ///< [s]
+  std::int64_t stage_step = 0;  ///< step at which the stage began
+};
+
+// ---------------------------------------------------------------------------------------------------- fill
+
+/// What a filling plugin is told and may say.
+struct FillJob {
+  std::uint64_t seed = 0;
+  std::function<void(const std::string&)> say;          ///< a line for the log
+  std::function<void(const std::string&)> warn;
+  std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
+  std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
+  /// What the steps of one filling hand on to one another, by the name of the set that is filled.
+  std::map<std::string, std::any>* in_progress = nullptr;
+};
+
+/// Adds elements and sets; runs once, before all else, in the deck's order.
+class Filler : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::fill;
+  virtual void fill(Domain& domain, const FillJob& job) = 0;
+  /// True for what looks at the finished packing (sets by region): it runs behind all others, in the deck's order.
+  virtual bool after_filling() const { return false; }
+};
+
+// ---------------------------------------------------------------------------------------------------- bond
+
+/// One evaluation of the forces.
+struct Evaluation {
+  bool clear = false;     ///< the first family of the evaluation overwrites the sums instead of adding
+  bool settle = false;    ///< the state is accepted: write what is kept
+  bool sections = false;  ///< somebody reads what the law offers of each bond (axial force, moments, ...)
+};
+
+/// A bond that changed for good while settling.
+struct BondEvent {
+  Index row;
+  std::string mode;
+  Real energy;  ///< [J]
+};
+
+class BondLaw : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::bond;
+  Param<std::string> name{this, {.name = "name", .doc = "Name of the family of bonds", .role = Role::makes_family}};
+  Param<std::vector<std::string>> between{
+      this, {.name = "between", .doc = "The two sets that are bonded; one and the same for bonds inside a set", .role = Role::set, .count = 2}};
+  Param<Real> gap{this,
+                  {.name = "gap",
+                   .range = not_negative,
+                   .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
+                   .fallback = "1e-3"}};
+
+  std::string family() const override { return *name; }
+
+  /// Pairs that are to be bonded, at the start of the stage in which the family first stands.
+  virtual bool accepts(const Domain&, Index, Index) const { return true; }
+  /// Sets the rest state of the rows just made. Throws DeckFailure where that is impossible.
+  virtual void connect(Domain& domain, BondTable& table) = 0;
+  /// What the log says once of the bonds just made.
+  virtual std::string remark() const { return ""; }
+  /// Adds the forces of all live bonds to the elements: a pure function of the state and the accepted history.
+  virtual void act(Domain& domain, BondTable& table, const Evaluation& evaluation) = 0;
+  /// Takes the forces of one bond off the sums again: it has just broken, at this configuration.
+  virtual void withdraw(Domain& domain, const BondTable& table, Index row) = 0;
+  /// Bonds whose state changed while settling in the last `act`; empty at nearly all steps.
+  virtual std::span<const BondEvent> events() const { return {}; }
+  /// Recoverable energy of one bond [J].
+  virtual Real stored_energy(const Domain& domain, const BondTable& table, Index row) const = 0;
+  /// Sum over the live bonds, in a fixed order [J].
+  virtual Real stored_energy(const Domain& domain, const BondTable& table) const = 0;
+  /// Energy that the law itself has taken for good [J].
+  virtual Real dissipated_energy(const Domain&, const BondTable&) const { return 0; }
+  /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2).
+  virtual Matrix12 tangent(const Domain& domain, const BondTable& table, Index row) const = 0;
+  /// True if the tangent has rotational parts.
+  virtual bool turns() const { return true; }
+  /// True if broken bonds still act (a cohesive contact still resists closing): they stay among the live rows.
+  virtual bool acts_when_broken() const { return false; }
+};
+
+// ---------------------------------------------------------------------------------------------------- load
+
+enum class Grip {
+  each,  ///< every element of the set moves alike
+  mean,  ///< the mean over the set does; each element is free otherwise
+};
+
+/// Rows (element, axis, coefficient) = value(t).
+struct Constraint {
+  std::string by;   ///< id of the load
+  std::string set;
+  int axis = 0;     ///< 0 x, 1 y, 2 z
+  Grip grip = Grip::each;
+  bool driven = false;  ///< it moves (pull), as against holding still
+  std::function<PrescribedMotion(Real)> motion;  ///< displacement since then, velocity, acceleration, of the time since the start of the stage
+  Real reaction = 0;  ///< sum of the forces that keep it, at the last accepted step [N]
+  Real work = 0;      ///< of these forces so far [J]
+};
+
+class Load : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::load;
+  /// Once, at the start of its stage: initial velocities and the like.
+  virtual void start(Domain&) {}
+  virtual std::vector<Constraint> constraints() const { return {}; }
+  /// Adds forces, at every evaluation.
+  virtual void push(Domain&, const Moment&) {}
+  /// After every accepted step: accumulates the work of `push`.
+  virtual void account(const Domain&, const Moment&) {}
+};
+
+// ---------------------------------------------------------------------------------------------------- move
+
+/// What the loop lends to a mover.
+class Workings {
+ public:
+  virtual ~Workings() = default;
+  virtual Domain& domain() = 0;
+  virtual Moment& moment() = 0;
+  virtual std::vector<Constraint>& constraints() = 0;
+  /// Sums of all forces and torques into the fields `force` and `torque`.
+  virtual void evaluate(bool settle) = 0;
+  /// The laws that act in this stage, each with its table.
+  virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
+  virtual void say(const std::string& line) = 0;
+};
+
+class Mover : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::move;
+  Param<std::string> until{
+      this,
+      {.name = "until",
+       .doc = "When the stage ends: a time (1 ms), a number of steps (5000), a displacement of what is pulled (0.8 mm), or a condition such "
+              "as \"force of right < 2 percent of its maximum\"; several are joined by 'or'",
+       .optional = true}};
+
+  /// Told before anything is allocated: whether some plugin reads orientations or adds torques.
+  virtual void choose_rotations(bool wanted) = 0;
+  /// Before the first step of the stage: forces at the present state, time step. After a restart (`resumed`) both are
+  /// what was kept.
+  virtual void prepare(Workings& workings, bool resumed) = 0;
+  /// One accepted step.
+  virtual void step(Workings& workings) = 0;
+  /// For `plan`: the time step [s] and what limits it.
+  virtual Real time_step() const = 0;
+  virtual std::string limited_by() const { return ""; }
+};
+
+// ---------------------------------------------------------------------------------------------------- fail
+
+class Failure : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::fail;
+  Param<std::string> of{this, {.name = "of", .doc = "The family of bonds that may break", .role = Role::family}};
+  Param<std::int64_t> every{this, {.name = "every", .range = {1}, .doc = "Steps from one check to the next", .fallback = "1"}};
+  Writes<Real> utilisation{this, field_utilisation()};
+
+  std::string family() const override { return *of; }
+  /// Rows of the bonds that fall, ascending: all are judged on one configuration, so that no order matters.
+  virtual std::vector<Index> judge(const Domain& domain, const BondTable& table) = 0;
+  /// Name of the way in which bonds fall, for the log.
+  virtual std::string mode() const = 0;
+
+ private:
+  static const Field& field_utilisation();
+};
+
+// -------------------------------------------------------------------------------------------------- derive
+
+/// Provides a field that somebody reads, in just the steps in which it is read.
+class Derived : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::derive;
+  virtual void derive(Domain& domain) = 0;
+};
+
+// --------------------------------------------------------------------------------------------------- watch
+
+/// A table that grows by a row now and then and ends up as a CSV file.
+class CurveSink {
+ public:
+  virtual ~CurveSink() = default;
+  virtual void row(std::span<const Real> values) = 0;
+};
+
+/// What the columns of a curve are, and how it is drawn.
+struct CurvePlan {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> columns;  ///< (name, unit), behind step and time
+  std::string title;
+  std::string x;                                              ///< column on the abscissa; empty is time
+  std::vector<std::string> y;
+  std::vector<std::string> references;                        ///< files of reference data, from the deck's folder
+  std::string kind;                                           ///< "ledger" for an energy balance
+};
+
+struct FramePlan {
+  std::vector<std::string> fields;
+  bool picture = false;
+};
+
+/// What the loop shows to a watcher.
+class Sight {
+ public:
+  virtual ~Sight() = default;
+  virtual const Domain& domain() const = 0;
+  virtual const Moment& moment() const = 0;
+  virtual std::span<const Constraint> constraints() const = 0;
+  virtual const BondLaw* law(const std::string& family) const = 0;
+  /// Asks every plugin for its share of the energy balance.
+  virtual void energies(EnergySink& sink) const = 0;
+  virtual CurveSink& curve(const CurvePlan& plan) = 0;
+  virtual void frame(const FramePlan& plan) = 0;
+};
+
+class Watcher : public Plugin {
+ public:
+  static constexpr Kind kind = Kind::watch;
+  Param<std::int64_t> every{
+      this, {.name = "every", .range = {1}, .doc = "Steps from one look to the next", .fallback = "100"}};
+  /// True if the watcher looks at this step; the loop then brings up to date what it reads.
+  virtual bool wants(const Moment& moment) const { return moment.step % *every == 0; }
+  virtual void look(Sight& sight) = 0;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,183 @@
+#include "core/plugin/param.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/text.hpp"
+#include "core/deck/read.hpp"
+#include "core/plugin/plugin.hpp"
+
+namespace beadwork {
+
+namespace {
+
+std::string in_unit(Real value, const std::string& unit) {
+  return unit == "1" ? format_number(value) : format_quantity(value, unit);
+}
+
+std::string si(Real value, const std::string& unit) {
+  if (unit == "1") return format_number(value);
+  const std::string name = find_unit(unit)->dimension.name();
+  return name == "1" ? format_number(value) : format_number(value) + " " + name;
+}
+
+bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, Complaints& complaints) {
+  if (info.range.holds(value)) return true;
+  complaints.error(attribute.value_at, fmt::format("'{}' must be {}, got \"{}\"", info.name,
+                                                   info.range.text(info.unit), attribute.value));
+  return false;
+}
+
+template <class T, class R>
+bool keep_if(std::optional<R> read, T& value) {
+  if (!read) return false;
+  value = std::move(*read);
+  return true;
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Real& value) {
+  return keep_if(read_quantity(a, info.unit, scope, c), value) && in_range(value, info, a, c);
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Vec3& value) {
+  if (!keep_if(read_vector(a, info.unit, scope, c), value)) return false;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!in_range(value[axis], info, a, c)) return false;
+  return true;
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, std::int64_t& value) {
+  return keep_if(read_integer(a, scope, c), value) && in_range(static_cast<Real>(value), info, a, c);
+}
+
+bool take_value(const ParamInfo&, const Attribute& a, const Scope& scope, Complaints& c, bool& value) {
+  return keep_if(read_boolean(a, scope, c), value);
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, std::string& value) {
+  if (!info.choices.empty()) return keep_if(read_choice(a, info.choices, scope, c), value);
+  return keep_if(read_text(a, scope, c), value);
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c,
+                std::vector<std::string>& value) {
+  if (!keep_if(read_words(a, scope, c), value)) return false;
+  if (info.count > 0 && static_cast<int>(value.size()) != info.count) {
+    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), a.value));
+    return false;
+  }
+  if (info.choices.empty()) return true;
+  for (const std::string& word : value)
+    if (std::find(info.choices.begin(), info.choices.end(), word) == info.choices.end()) {
+      c.error(a.value_at, fmt::format("'{}' knows no \"{}\"{}", info.name, word, did_you_mean(word, info.choices)));
+      return false;
+    }
+  return true;
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
+  value.text = a.value;
+  value.expression = Expression::compile(a, scope, info.variables, c);
+  if (!value.expression) return false;
+  const bool condition = value.expression->is_condition();
+  if (info.unit.empty()) {
+    if (condition) return true;
+    c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, a.value));
+    return false;
+  }
+  if (!condition && value.expression->dimension() == find_unit(info.unit)->dimension) return true;
+  c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), a.value,
+                                  condition ? "a condition" : value.expression->dimension().name()));
+  return false;
+}
+
+std::string words_of(const Real*, const ParamInfo& info) { return info.unit == "1" ? "number" : "quantity"; }
+std::string words_of(const Vec3*, const ParamInfo&) { return "three numbers"; }
+std::string words_of(const std::int64_t*, const ParamInfo&) { return "integer"; }
+std::string words_of(const bool*, const ParamInfo&) { return "yes or no"; }
+std::string words_of(const std::string*, const ParamInfo& info) {
+  return info.choices.empty() ? "text" : "one of " + join(info.choices);
+}
+std::string words_of(const std::vector<std::string>*, const ParamInfo& info) {
+  return info.count > 0 ? fmt::format("{} words", info.count) : "words";
+}
+std::string words_of(const Formula*, const ParamInfo& info) { return info.unit.empty() ? "condition" : "formula"; }
+
+std::string text_of_value(const Real& v, const ParamInfo& info) { return si(v, info.unit); }
+std::string text_of_value(const Vec3& v, const ParamInfo& info) {
+  return format_number(v[0]) + " " + format_number(v[1]) + " " + si(v[2], info.unit);
+}
+std::string text_of_value(const std::int64_t& v, const ParamInfo&) { return std::to_string(v); }
+std::string text_of_value(const bool& v, const ParamInfo&) { return v ? "yes" : "no"; }
+std::string text_of_value(const std::string& v, const ParamInfo&) { return v; }
+std::string text_of_value(const std::vector<std::string>& v, const ParamInfo&) { return join(v, " "); }
+std::string text_of_value(const Formula& v, const ParamInfo&) { return v.text; }
+
+}  // namespace
+
+std::string Range::text(const std::string& unit) const {
+  const bool has_low = std::isfinite(low);
+  const bool has_high = std::isfinite(high);
+  const auto bound = [&](Real value) { return in_unit(value, unit); };
+  if (has_low && has_high)
+    return fmt::format("in {}{}, {}{}", without_low ? "(" : "[", bound(low), bound(high), without_high ? ")" : "]");
+  if (has_low) return fmt::format("{} {}", without_low ? ">" : ">=", bound(low));
+  if (has_high) return fmt::format("{} {}", without_high ? "<" : "<=", bound(high));
+  return "any";
+}
+
+ParamBase::ParamBase(Plugin* owner, ParamInfo info) : info_(std::move(info)) { owner->params_.push_back(this); }
+
+void ParamBase::read(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
+  at_ = attribute.value_at;
+  attribute.used = true;
+  in_deck_ = true;
+  given_ = take(attribute, scope, complaints);
+}
+
+void ParamBase::read_fallback(const Location& at, const Scope& scope, Complaints& complaints) {
+  at_ = at;
+  if (!info_.fallback) return;
+  Attribute silent;
+  silent.name = info_.name;
+  silent.value = *info_.fallback;
+  silent.name_at = silent.value_at = at;
+  given_ = take(silent, scope, complaints);
+}
+
+template <class T>
+std::string Param<T>::type() const {
+  return words_of(&value_, info());
+}
+
+template <class T>
+std::string Param<T>::text() const {
+  return text_of_value(value_, info());
+}
+
+template <class T>
+std::vector<std::string> Param<T>::names() const {
+  if (info().role == Role::plain || !given()) return {};
+  if constexpr (std::is_same_v<T, std::string>)
+    return {value_};
+  else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+    return value_;
+  else
+    return {};
+}
+
+template <class T>
+bool Param<T>::take(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
+  return take_value(info(), attribute, scope, complaints, value_);
+}
+
+template class Param<Real>;
+template class Param<Vec3>;
+template class Param<std::int64_t>;
+template class Param<bool>;
+template class Param<std::string>;
+template class Param<std::vector<std::string>>;
+template class Param<Formula>;
+
+}  // namespace beadwork

@@ -1,0 +1,119 @@
+#pragma once
+// A value that the deck gives a plugin. One declaration serves parsing, checking, documentation and the XSD.
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/complaints.hpp"
+#include "core/base/types.hpp"
+#include "core/deck/deck.hpp"
+#include "core/deck/expression.hpp"
+
+namespace beadwork {
+
+class Plugin;
+
+struct Range {
+  Real low = -std::numeric_limits<Real>::infinity();
+  Real high = std::numeric_limits<Real>::infinity();
+  bool without_low = false;   ///< `low` itself is outside
+  bool without_high = false;  ///< `high` itself is outside
+
+  bool holds(Real value) const {
+    return (without_low ? value > low : value >= low) && (without_high ? value < high : value <= high);
+  }
+  /// In words, for values of that unit: "> 0 Pa".
+  std::string text(const std::string& unit) const;
+};
+
+inline constexpr Range anything{};
+inline constexpr Range positive{0, std::numeric_limits<Real>::infinity(), true, false};
+inline constexpr Range not_negative{0};
+inline constexpr Range fraction{0, 1};
+
+/// What a text of the deck stands for, so that names can be checked against one another.
+enum class Role { plain, makes_set, set, makes_family, family, fields };
+
+struct ParamInfo {
+  std::string name;
+  std::string unit = "1";              ///< of quantities; "1" is a plain number
+  Range range = anything;              ///< in SI
+  std::string doc;
+  std::optional<std::string> fallback = std::nullopt;  ///< used when the deck is silent, read as if it stood there
+  bool optional = false;               ///< may be absent without a fallback: ask `given()`
+  std::vector<std::string> choices = {};  ///< of a text: one of these
+  Role role = Role::plain;
+  int count = 0;                       ///< of several words: how many are wanted; 0 is any number
+  std::vector<Variable> variables = {};   ///< of a formula
+};
+
+/// A formula on quantities, such as `x < 13.5 mm`.
+struct Formula {
+  std::optional<Expression> expression;
+  std::string text;
+  Real operator()(std::span<const Real> values) const { return expression->evaluate(values); }
+};
+
+class ParamBase {
+ public:
+  ParamBase(Plugin* owner, ParamInfo info);
+  virtual ~ParamBase() = default;
+  ParamBase(const ParamBase&) = delete;
+  ParamBase& operator=(const ParamBase&) = delete;
+
+  const ParamInfo& info() const { return info_; }
+  /// True if the deck or a fallback gave a value.
+  bool given() const { return given_; }
+  /// True if the deck itself gave it.
+  bool in_deck() const { return in_deck_; }
+  const Location& at() const { return at_; }
+  bool needed() const { return !info_.optional && !info_.fallback; }
+
+  void read(const Attribute& attribute, const Scope& scope, Complaints& complaints);
+  void read_fallback(const Location& at, const Scope& scope, Complaints& complaints);
+
+  virtual std::string type() const = 0;  ///< in words, for the manual
+  virtual std::string text() const = 0;  ///< the value in SI, as a deck would give it
+  /// The names it holds, if its role is one of names.
+  virtual std::vector<std::string> names() const { return {}; }
+
+ protected:
+  virtual bool take(const Attribute& attribute, const Scope& scope, Complaints& complaints) = 0;
+
+ private:
+  ParamInfo info_;
+  bool given_ = false;
+  bool in_deck_ = false;
+  Location at_;
+};
+
+/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string> or Formula.
+template <class T>
+class Param final : public ParamBase {
+ public:
+  using ParamBase::ParamBase;
+  const T& value() const { return value_; }
+  const T& operator*() const { return value_; }
+  const T* operator->() const { return &value_; }
+  operator const T&() const { return value_; }
+
+  std::string type() const override;
+  std::string text() const override;
+  std::vector<std::string> names() const override;
+
+ private:
+  bool take(const Attribute& attribute, const Scope& scope, Complaints& complaints) override;
+  T value_{};
+};
+
+extern template class Param<Real>;
+extern template class Param<Vec3>;
+extern template class Param<std::int64_t>;
+extern template class Param<bool>;
+extern template class Param<std::string>;
+extern template class Param<std::vector<std::string>>;
+extern template class Param<Formula>;
+
+}  // namespace beadwork

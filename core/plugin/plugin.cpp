@@ -1,0 +1,95 @@
+#include "core/plugin/plugin.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/text.hpp"
+
+namespace beadwork {
+
+const char* kind_name(Kind kind) {
+  switch (kind) {
+    case Kind::fill: return "fill";
+    case Kind::bond: return "bond";
+    case Kind::load: return "load";
+    case Kind::move: return "move";
+    case Kind::fail: return "fail";
+    case Kind::derive: return "derive";
+    case Kind::watch: return "watch";
+  }
+  return "";
+}
+
+const char* verb_name(Verb verb) {
+  switch (verb) {
+    case Verb::reads: return "reads";
+    case Verb::adds: return "adds";
+    case Verb::writes: return "writes";
+    case Verb::keeps: return "keeps";
+  }
+  return "";
+}
+
+FieldUse::FieldUse(Plugin* owner, Field field, Verb verb) : field_(std::move(field)), verb_(verb) {
+  owner->uses_.push_back(this);
+}
+
+const ParamBase* Plugin::param(const std::string& name) const {
+  for (const ParamBase* p : params_)
+    if (p->info().name == name) return p;
+  return nullptr;
+}
+
+void Plugin::configure(const Node& node, const std::string& id, const Scope& scope, Complaints& complaints) {
+  tag_ = node.tag;
+  id_ = id;
+  at_ = node.at;
+  std::vector<std::string> known;
+  for (ParamBase* p : params_) {
+    known.push_back(p->info().name);
+    if (const Attribute* attribute = node.find(p->info().name)) {
+      p->read(*attribute, scope, complaints);
+    } else {
+      p->read_fallback(node.at, scope, complaints);
+      if (p->needed())
+        complaints.error(node.at, fmt::format("<{}> needs '{}': {}", tag_, p->info().name, p->info().doc));
+    }
+  }
+  for (const Attribute& attribute : node.attributes)
+    if (!param(attribute.name))
+      complaints.error(attribute.name_at, fmt::format("<{}> has no attribute '{}'{}", tag_, attribute.name,
+                                                      did_you_mean(attribute.name, known)));
+  for (const auto& child : node.children)
+    complaints.error(child->at, fmt::format("<{}> takes no <{}> inside it", tag_, child->tag));
+}
+
+std::string Plugin::column_name(const FieldUse& use) const {
+  return use.field().on == On::scene ? id_ + "." + use.field().name : use.field().name;
+}
+
+void Plugin::bind(Domain& domain) {
+  for (FieldUse* use : uses_) {
+    if (!use->wanted()) continue;
+    Table* table = nullptr;
+    switch (use->field().on) {
+      case On::elements: table = &domain.elements(); break;
+      case On::scene: table = &domain.scene(); break;
+      case On::bonds:
+        if (BondTable* mine = domain.find_family(family())) table = &mine->rows();
+        break;
+    }
+    use->bind(table ? table->find(column_name(*use)) : nullptr);
+  }
+}
+
+void Plugin::exactly_one(const std::vector<const ParamBase*>& of, const Location& at, Complaints& complaints) {
+  std::vector<std::string> all, there;
+  for (const ParamBase* p : of) {
+    all.push_back("'" + p->info().name + "'");
+    if (p->in_deck()) there.push_back(all.back());
+  }
+  if (there.size() == 1) return;
+  complaints.error(at, fmt::format("exactly one of {} is wanted, {}", join(all),
+                                   there.empty() ? "none is given" : "got " + join(there, " and ")));
+}
+
+}  // namespace beadwork

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include "core/base/failure.hpp"
+#include "core/domain/vocabulary.hpp"
+#include "core/mechanics/beam.hpp"
+#include "core/mechanics/beam_stiffness.hpp"
+#include "core/plugin/bond_loop.hpp"
+
+namespace beadwork {
+
+/// The columns of the beams, and what is done with one of them.
+struct CohesiveBeamLaw {
+  View<const Vec3> axis;
+  View<const Real> length, axial, bending;
+  Real torsion_to_bending = 0;
+  View<Real> axial_force, bending_moment, twisting_moment, section_radius;  // null where nobody reads them
+
+  static constexpr bool turns = true;
+
+  template <class At>
+  auto rest(const At& at) const {
+    using T = typename At::Number;
+    const T b = at(bending);
+    return BeamRest<T>{at(axis), at(length), at(axial), b, T(torsion_to_bending) * b};
+  }
+
+  template <Pass pass, class At, class T>
+  Wrench<T> act(const At& at, const Ends<T>& ends) const {
+    const Wrench<T> wrench = beam_wrench<T>(rest(at), ends.apart, ends.q1, ends.q2);
+    if constexpr (pass.sections) {
+      const BeamSection<T> section = beam_section<T>(ends.apart, wrench);
+      if (axial_force) at.store(axial_force, section.axial_force);
+      if (bending_moment) at.store(bending_moment, max(section.moment1, section.moment2));
+      if (twisting_moment) at.store(twisting_moment, section.torque);
+      if (section_radius) at.store(section_radius, sqrt(T(2) * at(bending) / at(axial)));  // B = k_n r^2 / 2
+    }
+    return wrench;
+  }
+
+  template <class At, class T>
+  T stored(const At& at, const Ends<T>& ends) const {
+    return beam_energy<T>(rest(at), ends.apart, ends.q1, ends.q2).total();
+  }
+};
+
+/// Cohesive beam: resists stretching, bending and twisting.   docs/theory/cohesive-beam.md
+class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw> {
+ public:
+  static constexpr const char* about = "Beams of round section between neighbouring elements: a bonded elastic solid";
+  Param<Real> young{this, {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus E_mu of the beams (microscopic)"}};
+  Param<Real> poisson{this, {.name = "poisson", .range = {-1, 0.5, true, false}, .doc = "Poisson's ratio nu_mu of the beams (microscopic)", .fallback = "0.3"}};
+  Param<Real> radius_ratio{this, {.name = "radius-ratio", .range = positive, .doc = "Radius of a beam over the mean radius of its two elements"}};
+
+  Reads<Vec3> position{this, field::position};
+  Reads<Quat> orientation{this, field::orientation};
+  Reads<Real> radius{this, field::radius};
+  Adds<Vec3> force{this, field::force};
+  Adds<Vec3> torque{this, field::torque};
+  Keeps<Vec3> axis{this, {"axis", On::bonds, "1", "Direction from the first to the second element when the bond was made"}};
+  Keeps<Real> length{this, field::rest_length};
+  Keeps<Real> axial{this, {"axial-stiffness", On::bonds, "N/m", "E A / L"}};
+  Keeps<Real> bending{this, {"bending-stiffness", On::bonds, "N.m", "2 E I / L"}};
+  Writes<Real> section_radius{this, field::section_radius};
+  Writes<Real> axial_force{this, field::axial_force};
+  Writes<Real> bending_moment{this, field::bending_moment};
+  Writes<Real> twisting_moment{this, field::twisting_moment};
+
+  void connect(Domain&, BondTable& table) override {
+    for (Index row = 0; row < table.size(); ++row) {
+      const Index i = table.first()[row];
+      const Index j = table.second()[row];
+      const Real r = *radius_ratio * 0.5 * (radius[i] + radius[j]);
+      const Vec3 apart = position[j] - position[i];
+      if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
+        throw DeckFailure(fmt::format("{}: error: elements {} and {} of family '{}' stand at one place: a beam between them has no "
+                                      "direction; move one of them or leave it out of the sets",
+                                      at().where(), i, j, *name));
+      const BeamRest<Real> rest = round_beam(apart, *young, *poisson, r);
+      axis.set(row, rest.axis);
+      length[row] = rest.length;
+      axial[row] = rest.axial;
+      bending[row] = rest.bending;
+    }
+  }
+
+  Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
+    const auto rest = columns().rest(One{row, nullptr});
+    const Index i = table.first()[row];
+    const Index j = table.second()[row];
+    return beam_stiffness(rest, position[j] - position[i]);
+  }
+
+ protected:
+  AnyLaw law() const override { return columns(); }
+
+ private:
+  CohesiveBeamLaw columns() const {
+    return {axis.view(), length.view(), axial.view(), bending.view(), torsion_to_bending(*poisson),
+            axial_force.view(), bending_moment.view(), twisting_moment.view(), section_radius.view()};
+  }
+};
+
+}  // namespace beadwork

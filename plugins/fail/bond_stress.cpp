@@ -1,0 +1,59 @@
+#include "core/base/failure.hpp"
+#include "core/domain/vocabulary.hpp"
+#include "core/mechanics/beam.hpp"
+#include "core/plugin/kinds.hpp"
+
+namespace beadwork {
+
+/// Breakable bonds (BBF): a bond breaks when the largest stress in its section reaches the strength.
+/// docs/theory/bond-failure.md
+class BondStress final : public Failure {
+ public:
+  static constexpr const char* about = "A bond breaks when the largest stress in its section reaches the strength (BBF)";
+  Param<Real> strength{this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Stress sigma_fail at which a bond breaks"}};
+  Param<std::string> measure{this,
+                             {.name = "measure",
+                              .doc = "axial: N/A; axial-bending: largest normal stress of the section; principal: with the shear of twisting",
+                              .fallback = "axial-bending",
+                              .choices = {"axial", "axial-bending", "principal"}}};
+  Reads<Real> axial_force{this, field::axial_force};
+  Reads<Real> bending_moment{this, field::bending_moment};
+  Reads<Real> twisting_moment{this, field::twisting_moment};
+  Reads<Real> section_radius{this, field::section_radius};
+
+  void choose() override {
+    bending_moment.want(*measure != "axial");
+    twisting_moment.want(*measure == "principal");
+    chosen_ = *measure == "axial" ? 0 : *measure == "axial-bending" ? 1 : 2;
+  }
+
+  std::vector<Index> judge(const Domain&, const BondTable& table) override {
+    std::vector<std::vector<Index>> fallen(table.chunks().size());
+    const auto chunks = static_cast<Index>(table.chunks().size());
+#pragma omp parallel for schedule(static) if (chunks > 1)
+    for (Index c = 0; c < chunks; ++c) {
+      const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
+      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+        const Real use = stress(b) / *strength;
+        if (utilisation) utilisation[b] = use;
+        if (use >= 1) fallen[static_cast<std::size_t>(c)].push_back(b);
+      }
+    }
+    std::vector<Index> all;
+    for (const auto& part : fallen) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+  std::string mode() const override { return *measure; }
+
+ private:
+  int chosen_ = 0;
+  Real stress(Index b) const {
+    const Real moment = bending_moment ? bending_moment[b] : 0;
+    const Real twist = twisting_moment ? twisting_moment[b] : 0;
+    const BeamStress<Real> all = beam_stress<Real>(BeamSection<Real>{axial_force[b], moment, moment, twist}, section_radius[b]);
+    return chosen_ == 0 ? all.axial : chosen_ == 1 ? all.axial_bending : all.principal;
+  }
+};
+
+}  // namespace beadwork

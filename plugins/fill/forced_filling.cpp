@@ -1,0 +1,17 @@
+#include "plugins/fill/packing_steps.hpp"
+
+namespace beadwork {
+
+/// Second step of filling: the rest is forced in with overlap and all are re-arranged, until the coordination number is
+/// reached.   docs/theory/packing.md
+class ForcedFilling final : public PackingStep {
+ public:
+  static constexpr const char* about = "Second step of filling: forces the rest in and re-arranges, until the coordination number is reached";
+  Param<Real> coordination{this, {.name = "coordination", .range = positive, .doc = "Contacts of an element, mean over all elements", .fallback = "6.2"}};
+  Param<Real> tolerance{this, {.name = "tolerance", .range = {0, 1, true, true}, .doc = "Largest overlap over the sum of radii at which an element is put in", .fallback = "0.3"}};
+
+ protected:
+  void go_on(packing::Packing& packing) override { packing::forced_filling(packing, {*coordination, *tolerance}); }
+};
+
+}  // namespace beadwork

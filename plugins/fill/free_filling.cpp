@@ -1,0 +1,59 @@
+#include "plugins/fill/packing_steps.hpp"
+
+namespace beadwork {
+
+/// First step of filling: elements at random places, none overlapping another, until nothing more fits.
+/// docs/theory/packing.md
+class FreeFilling final : public ElementMaker {
+ public:
+  static constexpr const char* about = "First step of filling: elements at random places without overlap, until nothing more fits";
+  Param<Vec3> box{this, {.name = "box", .unit = "m", .range = positive, .doc = "Extents of the box to be filled; exactly one of box and cylinder-radius", .optional = true}};
+  Param<Vec3> from{this, {.name = "from", .unit = "m", .doc = "Lowest corner of the box, or centre of one end of the cylinder", .fallback = "0 0 0 m"}};
+  Param<Real> cylinder_radius{this, {.name = "cylinder-radius", .unit = "m", .range = positive, .doc = "Radius of the cylinder to be filled, from 'from' to 'to'", .optional = true}};
+  Param<Vec3> to{this, {.name = "to", .unit = "m", .doc = "Centre of the other end of the cylinder", .optional = true}};
+  Param<std::int64_t> count{this, {.name = "count", .range = {1}, .doc = "Number of elements of the finished packing; exactly one of count and mean-radius", .optional = true}};
+  Param<Real> mean_radius{this, {.name = "mean-radius", .unit = "m", .range = positive, .doc = "Mean radius; the number of elements follows", .optional = true}};
+  Param<std::string> law{this, {.name = "law", .doc = "How radii are distributed", .fallback = "uniform", .choices = {"uniform", "truncated-gaussian"}}};
+  Param<Real> spread{this, {.name = "spread", .range = {0, 1, false, true}, .doc = "Radii lie within (1 - spread) and (1 + spread) of their mean", .fallback = "0.25"}};
+  Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut", .fallback = "0.125"}};
+  Param<std::vector<std::string>> around{this, {.name = "around", .doc = "Sets that are there already and do not move", .optional = true, .role = Role::set}};
+
+  void check(Complaints& complaints) const override {
+    exactly_one({&count, &mean_radius}, at(), complaints);
+    exactly_one({&box, &cylinder_radius}, at(), complaints);
+    if (cylinder_radius.in_deck() && !to.given()) complaints.error(cylinder_radius.at(), "a cylinder needs 'to', the centre of its other end");
+  }
+
+  void fill(Domain& domain, const FillJob& job) override {
+    packing::Request request;
+    if (box.given())
+      request.region = packing::Box{*from, *from + *box};
+    else
+      request.region = packing::Cylinder{*from, *to, *cylinder_radius};
+    if (count.given()) request.count = *count;
+    if (mean_radius.given()) request.mean_radius = *mean_radius;
+    request.dispersion = {*law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian, *spread, *deviation};
+    request.seed = job.seed;
+    if (around.given()) note_obstacles(domain, request.around);
+    guarded(*this, [&] {
+      packing::Packing packing = packing::free_filling(request);
+      for (const std::string& warning : packing.warnings) job.warn(warning);
+      const Index first = add_spheres(domain, packing.position, packing.radius);
+      job.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
+      (*job.in_progress)[*set] = PackingInProgress{std::move(packing), *density, first};
+    });
+  }
+
+ private:
+  void note_obstacles(const Domain& domain, packing::Obstacles& obstacles) const {
+    const auto position = domain.elements().column("position").view<Vec3>();
+    const auto radius = domain.elements().column("radius").view<Real>();
+    for (const std::string& name : *around)
+      for (const Index row : domain.set(name)) {
+        obstacles.position.push_back(position[row]);
+        obstacles.radius.push_back(radius[row]);
+      }
+  }
+};
+
+}  // namespace beadwork

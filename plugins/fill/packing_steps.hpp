@@ -1,0 +1,98 @@
+#pragma once
+// What the three steps of filling share: the packing that they hand on, and the elements made of it.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/failure.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/report.hpp"
+#include "plugins/fill/inertia.hpp"
+
+namespace beadwork {
+
+struct PackingInProgress {
+  packing::Packing packing;
+  Real density;
+  Index first_row;  ///< its elements stand from here on
+};
+
+inline std::string packing_json(const std::string& set, const std::string& step, const packing::PackingReport& r) {
+  return fmt::format(
+      R"({{"set":"{}","step":"{}","elements":{},"seed":{},"seconds":{:.3g},)"
+      R"("coordination":{:.5g},"coordination_without_rattlers":{:.5g},"coordination_bulk":{:.5g},)"
+      R"("coordination_touching":{:.5g},"coordination_touching_without_rattlers":{:.5g},"gap_tolerance":{},)"
+      R"("rattlers":{:.4g},"max_overlap":{:.4g},"mean_overlap":{:.4g},)"
+      R"("fabric_eigenvalues":[{:.5g}],"fabric_eigenvalues_bulk":[{:.5g}],"density":{:.5g},"density_bulk":{:.5g},)"
+      R"("mean_radius":{:.8g},"min_radius":{:.8g},"max_radius":{:.8g},"kolmogorov_smirnov_distance":{:.4g},"bond_order_q6":{:.4g},)"
+      R"("crystalline":{},"radius_over_mean":{{"edges":[{:.6g}],"counts":[{}],"unit":"1"}}}})",
+      set, step, r.count, r.seed, r.seconds, r.near.all, r.near.without_rattlers, r.near.bulk, r.touching.all,
+      r.touching.without_rattlers, r.tolerance, r.rattlers, r.max_overlap, r.mean_overlap, fmt::join(r.fabric, ","),
+      fmt::join(r.fabric_bulk, ","), r.density, r.density_bulk, r.mean_radius, r.min_radius, r.max_radius, r.kolmogorov, r.bond_order,
+      r.crystalline, fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
+}
+
+/// Filling goes wrong in two ways, both the deck's: a request that makes no sense, and one that cannot be met.
+template <class Step>
+void guarded(const Plugin& plugin, const Step& step) {
+  try {
+    step();
+  } catch (const std::invalid_argument& refused) {
+    throw DeckFailure(fmt::format("{}: error: {}", plugin.at().where(), refused.what()));
+  } catch (const packing::PackingFailure& failed) {
+    throw DeckFailure(fmt::format("{}: error: {}", plugin.at().where(), failed.what()));
+  }
+}
+
+/// A step that goes on with a packing that an earlier one began.
+class PackingStep : public Filler {
+ public:
+  Param<std::string> set{this, {.name = "set", .doc = "Set that free-filling began", .role = Role::set}};
+  Writes<Real> mass{this, field::mass};
+  Writes<Real> inertia{this, field::inertia};
+
+  void fill(Domain& domain, const FillJob& job) final {
+    const auto found = job.in_progress->find(*set);
+    if (found == job.in_progress->end())
+      throw DeckFailure(fmt::format("{}: error: set '{}' is no packing in progress: <free-filling> has to come first", at().where(), *set));
+    auto& progress = std::any_cast<PackingInProgress&>(found->second);
+    const std::size_t before = progress.packing.warnings.size();
+    guarded(*this, [&] { go_on(progress.packing); });
+    for (std::size_t w = before; w < progress.packing.warnings.size(); ++w) job.warn(progress.packing.warnings[w]);
+    place(domain, progress);
+    const auto report = packing::report(progress.packing);
+    job.report(packing_json(*set, tag(), report));
+    job.say(fmt::format("{}: {} elements, Z {:.3f}, largest overlap {:.2g}, density {:.4f}, {:.1f} s", tag(), report.count, report.near.all,
+                        report.max_overlap, report.density, report.seconds));
+  }
+
+ protected:
+  virtual void go_on(packing::Packing& packing) = 0;
+
+ private:
+  void place(Domain& domain, const PackingInProgress& progress) {
+    const auto count = static_cast<Index>(progress.packing.position.size());
+    Set& members = domain.sets()[*set];
+    const auto there = static_cast<Index>(members.size());
+    if (count > there) {
+      if (progress.first_row + there != domain.size())
+        throw DeckFailure(fmt::format("{}: error: other elements were made since set '{}' was begun: finish one packing before the next", at().where(), *set));
+      domain.add_elements(count - there);
+      for (Index row = progress.first_row + there; row < domain.size(); ++row) members.push_back(row);
+    }
+    bind(domain);
+    const auto position = domain.elements().column("position").view<Vec3>();
+    const auto radius = domain.elements().column("radius").view<Real>();
+    for (Index k = 0; k < count; ++k) {
+      const Index row = progress.first_row + k;
+      const Real r = progress.packing.radius[static_cast<std::size_t>(k)];
+      position.set(row, progress.packing.position[static_cast<std::size_t>(k)]);
+      radius[row] = r;
+      const Real m = progress.density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
+      if (mass) mass[row] = m;
+      if (inertia) inertia[row] = 0.4 * m * r * r;
+    }
+  }
+};
+
+}  // namespace beadwork

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/failure.hpp"
+#include "core/base/sums.hpp"
+#include "core/domain/vocabulary.hpp"
+#include "core/mechanics/verlet.hpp"
+#include "core/plugin/kinds.hpp"
+#include "plugins/move/grips.hpp"
+#include "plugins/move/stable_step.hpp"
+
+namespace beadwork {
+
+/// Velocity Verlet with numerical damping beta.   Eqs (1), (2); docs/theory/verlet.md
+class Verlet final : public Mover {
+ public:
+  static constexpr const char* about = "Explicit dynamics: velocity Verlet with numerical damping beta, its time step found by itself";
+  Param<Real> beta{this, {.name = "beta", .range = {0, 1, true, false}, .doc = "1: no damping; below 1 inertia grows by 1/beta and high frequencies are damped, Eq (2)", .fallback = "1"}};
+  Param<Real> safety{this, {.name = "safety", .range = {0, 1, true, false}, .doc = "Time step over the estimate of the largest stable one", .fallback = "0.9"}};
+  Param<Real> fixed_step{this, {.name = "time-step", .unit = "s", .range = positive, .doc = "Time step, instead of the one found by itself; a run that exceeds stability is stopped", .optional = true}};
+  Param<Real> local_damping{this, {.name = "local-damping", .range = {0, 1, false, true}, .doc = "Share of each force component that is turned against the motion (Cundall)", .fallback = "0"}};
+
+  Keeps<Vec3> velocity{this, field::velocity};
+  Keeps<Vec3> force{this, field::force};
+  Keeps<Quat> orientation{this, field::orientation};
+  Keeps<Vec3> spin{this, field::spin};
+  Keeps<Vec3> torque{this, field::torque};
+  Reads<Real> mass{this, field::mass};
+  Reads<Real> inertia{this, field::inertia};
+  Reads<Real> radius{this, field::radius};
+  Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
+
+  void choose_rotations(bool wanted) override {
+    for (FieldUse* use : {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&spin), static_cast<FieldUse*>(&torque),
+                          static_cast<FieldUse*>(&inertia)})
+      use->want(wanted);
+  }
+  Real time_step() const override { return step_.time_step; }
+  std::string limited_by() const override { return step_.by; }
+
+  void prepare(Workings& w, bool resumed) override {
+    count_ = w.domain().size();
+    position_ = w.domain().elements().column("position").view<Vec3>();
+    grips_ = Grips(w.domain(), w.constraints());
+    if (!resumed) {
+      step_ = step_limit(w, mass.view(), inertia.view());
+      const Real largest = step_.time_step;
+      w.moment().time_step = fixed_step.given() ? *fixed_step : *safety * largest;
+      if (!std::isfinite(w.moment().time_step))
+        throw DeckFailure(fmt::format("{}: error: nothing in this scene limits the time step: give 'time-step'", at().where()));
+      w.say(fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step, w.moment().time_step / largest,
+                        step_.by));
+      stable_ = largest;
+      w.evaluate(false);
+      damp(w);
+      grips_.react(w, mass.view(), force.view(), *beta);
+    }
+  }
+
+  void step(Workings& w) override {
+    Moment& now = w.moment();
+    position_ = w.domain().elements().column("position").view<Vec3>();
+    grips_.before_advance(w, position_);
+    advance_all(now.time_step);
+    grips_.after_advance(w, position_, mass.view());
+    now.time += now.time_step;
+    ++now.step;
+    w.evaluate(true);
+    damp(w);
+    grips_.react(w, mass.view(), force.view(), *beta);
+    correct_all(w);
+    grips_.after_correct(w, velocity.view(), mass.view());
+    if (now.step % 100 == 0) check_speed(w);
+  }
+
+  void energy(EnergySink& sink) const override {
+    sink.kinetic(fixed_sum(count_, [&](Index i) {
+                   Real twice = mass[i] * velocity[i].squaredNorm();
+                   if (spin) twice += inertia[i] * spin[i].squaredNorm();
+                   return 0.5 * twice;
+                 }) /
+                 *beta);
+    if (*local_damping > 0) sink.dissipated("damping", damped[0]);
+  }
+
+ private:
+  // Places and orientations at the next time; velocities half-way there.   Eq (1)
+  void advance_all(Real dt) {
+    const Real half = 0.5 * *beta * dt;
+#pragma omp parallel for schedule(static) if (count_ > 4096)
+    for (Index i = 0; i < count_; ++i) {
+      const Vec3 a = force[i] / mass[i];
+      const Vec3 v = velocity[i];
+      position_.set(i, advance<Real>(position_[i], v, a, dt));
+      velocity.set(i, v + half * a);
+      if (!spin) continue;
+      const Vec3 alpha = torque[i] / inertia[i];
+      const Vec3 omega = spin[i];
+      orientation.set(i, turn<Real>(orientation[i], omega, alpha, dt));
+      spin.set(i, omega + half * alpha);
+    }
+  }
+
+  // Velocities from half-way to the full step.   Eq (2)
+  void correct_all(Workings& w) {
+    const Real half = 0.5 * *beta * w.moment().time_step;
+    bool broken = false;
+#pragma omp parallel for schedule(static) reduction(|| : broken) if (count_ > 4096)
+    for (Index i = 0; i < count_; ++i) {
+      const Vec3 f = force[i];
+      Real all = f.x() + f.y() + f.z();
+      velocity.set(i, velocity[i] + half * (f / mass[i]));
+      if (spin) {
+        const Vec3 t = torque[i];
+        all += t.x() + t.y() + t.z();
+        spin.set(i, spin[i] + half * (t / inertia[i]));
+      }
+      broken = broken || !std::isfinite(all);
+    }
+    if (broken) stop_at_force(w);
+  }
+
+  // F -= alpha |F| sgn(v), component by component. What it takes in one step is dt f.v with the velocity at full time,
+  // which the leap-frog form of the scheme makes exact.
+  void damp(Workings& w) {
+    if (*local_damping == 0) return;
+    const Real dt = w.moment().time_step;
+    const Real half = 0.5 * *beta * dt;
+    const auto damp_one = [&](const View<Vec3>& load, const View<Vec3>& rate, Real inertia_of, Index i, int first_axis) {
+      Real taken = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (first_axis == 0 && grips_.holds(i, axis)) continue;
+        Real& f = load.at(i, axis);
+        const Real v = rate.at(i, axis);
+        const Real d = v == 0 ? 0 : -*local_damping * std::abs(f) * (v > 0 ? 1 : -1);
+        f += d;
+        taken -= dt * d * (v + half * f / inertia_of);
+      }
+      return taken;
+    };
+    damped[0] += fixed_sum(count_, [&](Index i) {
+      Real taken = damp_one(force.view(), velocity.view(), mass[i], i, 0);
+      if (spin) taken += damp_one(torque.view(), spin.view(), inertia[i], i, 3);
+      return taken;
+    });
+  }
+
+  [[noreturn]] void stop_at_force(Workings& w) {
+    for (Index i = 0; i < count_; ++i)
+      if (!force[i].allFinite() || (spin && !torque[i].allFinite()))
+        throw PhysicsFailure(fmt::format("step {}: the force on element {} is not finite; {}", w.moment().step,
+                                         w.domain().elements().column("id").view<Index>()[i], cause(w)));
+    throw PhysicsFailure(fmt::format("step {}: forces are not finite; {}", w.moment().step, cause(w)));
+  }
+
+  // In one step the ends of a bond may approach or part by a small share of its length only: faster is no solid any more.
+  void check_speed(Workings& w) {
+    const Real dt = w.moment().time_step;
+    for (const auto& [law, table] : w.laws())
+      for (const Chunk& chunk : table->chunks())
+        for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+          const Index i = table->first()[b];
+          const Index j = table->second()[b];
+          const Real moved = (velocity[j] - velocity[i]).norm() * dt;
+          if (moved <= 0.2 * (position_[j] - position_[i]).norm()) continue;
+          throw PhysicsFailure(fmt::format("step {}: element {} of a bond of '{}' moves by {:.2g} of the bond's length in one step; {}",
+                                           w.moment().step, w.domain().elements().column("id").view<Index>()[i], table->name(),
+                                           moved / (position_[j] - position_[i]).norm(), cause(w)));
+        }
+  }
+
+  std::string cause(Workings& w) const {
+    const Real ratio = w.moment().time_step / (stable_ > 0 ? stable_ : step_limit(w, mass.view(), inertia.view()).time_step);
+    if (ratio > 1)
+      return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
+    return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast or a stiffness too high", ratio);
+  }
+
+  Index count_ = 0;
+  View<Vec3> position_;
+  Grips grips_;
+  StepLimit step_;
+  Real stable_ = 0;
+};
+
+}  // namespace beadwork

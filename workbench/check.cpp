@@ -1,0 +1,24 @@
+#include <cstdio>
+
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+void add_check(CLI::App& app, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("check", "Checks a deck without running it");
+  verb->footer("Example: beadwork check xml-cases/dcb/quick.xml");
+  auto arguments = std::make_shared<DeckArguments>();
+  auto verbose = std::make_shared<bool>(false);
+  arguments->add_to(*verb);
+  verb->add_flag("-v,--verbose", *verbose, "Prints the deck with every value in SI and every default written out");
+  verb->callback([&chosen, arguments, verbose] {
+    chosen = [arguments, verbose] {
+      const Loaded loaded = load_scene(*arguments);
+      if (*verbose) std::printf("%s", loaded.scene->resolved.c_str());
+      std::printf("%s: no errors\n", arguments->path.c_str());
+      return 0;
+    };
+  });
+}
+
+}  // namespace beadwork

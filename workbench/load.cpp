@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+#include "core/deck/read.hpp"
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+void DeckArguments::add_to(CLI::App& verb) {
+  verb.add_option("deck", path, "The deck, an XML file")->required();
+  verb.add_option("--set", settings, "Gives a parameter of the deck another value: name=value")->allow_extra_args(false);
+  verb.add_option("--plugins", libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
+}
+
+Loaded load_scene(const DeckArguments& arguments) {
+  std::vector<Override> overrides;
+  for (const std::string& setting : arguments.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw DeckFailure(fmt::format("error: --set wants name=value, got \"{}\"", setting));
+    overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+  }
+  Complaints complaints;
+  Loaded loaded;
+  loaded.deck = read_deck(arguments.path, overrides, complaints);
+  if (!loaded.deck) complaints.throw_if_any();
+  std::vector<std::filesystem::path> extra;
+  if (const Attribute* plugins = loaded.deck->root->find("plugins"))
+    if (const auto words = read_words(*plugins, loaded.deck->scope, complaints))
+      for (const std::string& word : *words) extra.push_back(std::filesystem::path(arguments.path).parent_path() / word);
+  extra.insert(extra.end(), arguments.libraries.begin(), arguments.libraries.end());
+  loaded.catalogue = Catalogue::open(extra);
+  loaded.scene = Scene::assemble(*loaded.deck, loaded.catalogue, complaints);
+  complaints.throw_if_any();
+  if (complaints.warnings() > 0) std::fprintf(stderr, "%s", complaints.text().c_str());
+  return loaded;
+}
+
+}  // namespace beadwork

@@ -1,0 +1,36 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/base/failure.hpp"
+#include "core/version.hpp"
+#include "workbench/verbs.hpp"
+
+using namespace beadwork;
+
+int main(int argc, char** argv) {
+  CLI::App app{"Beadwork: a workbench for the discrete element method of bonded solids", "beadwork"};
+  app.set_version_flag("--version", version);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 2 deck, 3 physics or a plugin's failure, 4 plugin library, 5 interrupted and resumable, 1 anything else");
+  std::function<int()> chosen;
+  add_run(app, chosen);
+  add_check(app, chosen);
+  add_report(app, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : static_cast<int>(ExitCode::deck);
+  }
+  try {
+    return chosen();
+  } catch (const Fault& fault) {
+    std::fprintf(stderr, "%s\n", fault.what());
+    return static_cast<int>(fault.code());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return static_cast<int>(ExitCode::machine);
+}

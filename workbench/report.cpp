@@ -1,0 +1,22 @@
+#include "workbench/report/report.hpp"
+
+#include <cstdio>
+
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+void add_report(CLI::App& app, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("report", "Writes report.html of a run: curves, energy balance, packing, pictures");
+  verb->footer("Example: beadwork report out/dcb");
+  auto folder = std::make_shared<std::string>();
+  verb->add_option("folder", *folder, "Folder of a run")->required();
+  verb->callback([&chosen, folder] {
+    chosen = [folder] {
+      std::printf("%s\n", write_report(*folder).c_str());
+      return 0;
+    };
+  });
+}
+
+}  // namespace beadwork

@@ -1,0 +1,127 @@
+#include "core/loop/run.hpp"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+#include "core/base/failure.hpp"
+#include "core/version.hpp"
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+namespace {
+
+std::atomic<int> interrupted{0};
+
+void note_signal(int number) { interrupted = number; }
+
+struct RunArguments {
+  DeckArguments deck;
+  std::string out;
+  bool overwrite = false, resume = false, quiet = false;
+  int threads = 0;
+  double checkpoint_minutes = 10;
+};
+
+// On a terminal one line that is written over; in a log one line a minute.
+class Progress {
+ public:
+  explicit Progress(spdlog::logger& log) : log_(log) {}
+
+  void operator()(double fraction, const std::string& text) {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - began_).count();
+    std::string line = fmt::format("{:3.0f} %  {}", 100 * fraction, text);
+    if (fraction > 0.001) line += fmt::format(", {:.0f} s to go", seconds * (1 - fraction) / fraction);
+    if (terminal_) {
+      std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
+      shown_ = true;
+    } else if (std::chrono::duration<double>(now - last_).count() >= 60) {
+      last_ = now;
+      log_.info(line);
+    }
+  }
+  void end() const {
+    if (shown_) std::fprintf(stderr, "\r\x1b[K");
+  }
+
+ private:
+  spdlog::logger& log_;
+  const bool terminal_ = isatty(STDERR_FILENO) == 1;
+  bool shown_ = false;
+  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_ = began_;
+};
+
+std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder, const RunArguments& arguments) {
+  auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !arguments.resume);
+  auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  file->set_pattern("%Y-%m-%d %H:%M:%S %l %v");
+  console->set_pattern("%v");
+  console->set_level(arguments.quiet ? spdlog::level::warn : spdlog::level::info);
+  auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, console});
+  log->flush_on(spdlog::level::info);
+  return log;
+}
+
+int run(const RunArguments& arguments) {
+  Loaded loaded = load_scene(arguments.deck);
+  RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
+  const auto log = make_log(folder, arguments);
+  Progress progress(*log);
+
+  RunOptions options;
+  options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.resume = arguments.resume;
+  options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
+  options.interrupt = &interrupted;
+  options.say = [&](const std::string& line) { log->info(line); };
+  options.warn = [&](const std::string& line) { log->warn("warning: " + line); };
+  options.progress = [&](double fraction, const std::string& text) { progress(fraction, text); };
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+
+  log->info("beadwork {} runs {} on {} threads into {}", version, arguments.deck.path, options.threads, arguments.out);
+  for (const Library& library : loaded.catalogue.libraries()) log->debug("plugins: {} ({})", library.path.string(), library.version);
+  Run job(*loaded.scene, loaded.catalogue, folder, options);
+  try {
+    job.all();
+  } catch (const Fault& fault) {
+    progress.end();
+    log->error(fault.what());
+    return static_cast<int>(fault.code());
+  } catch (const std::exception& error) {
+    progress.end();
+    log->error("error: {}", error.what());
+    return static_cast<int>(ExitCode::machine);
+  }
+  progress.end();
+  const RunFigures& figures = job.figures();
+  log->info("done: {} in {:.1f} s ({:.1f} s in the loop, {:.3g} million bond updates/s)", figures.exit_reason, figures.wall_seconds,
+            figures.loop_seconds, figures.loop_seconds > 0 ? 1e-6 * figures.bond_updates / figures.loop_seconds : 0);
+  return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("run", "Runs a deck");
+  verb->footer("Example: beadwork run xml-cases/dcb/quick.xml --out out/dcb --threads 2");
+  auto arguments = std::make_shared<RunArguments>();
+  arguments->deck.add_to(*verb);
+  verb->add_option("--out", arguments->out, "Folder for the results")->required();
+  verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
+  verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder");
+  verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
+  verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
+  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace beadwork

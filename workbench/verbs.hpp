@@ -1,0 +1,40 @@
+#pragma once
+// One file per verb of the command line. Each adds its subcommand; when it is given, `chosen` is what is to be done.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/loop/scene.hpp"
+
+namespace beadwork {
+
+using Chosen = std::function<int()>;
+
+void add_run(CLI::App& app, Chosen& chosen);
+void add_check(CLI::App& app, Chosen& chosen);
+void add_report(CLI::App& app, Chosen& chosen);
+
+/// What every verb that reads a deck takes.
+struct DeckArguments {
+  std::string path;
+  std::vector<std::string> settings;   ///< name=value
+  std::vector<std::string> libraries;  ///< files or folders
+
+  void add_to(CLI::App& verb);
+};
+
+/// A deck, the plugins it may use, and the scene made of them.
+struct Loaded {
+  std::unique_ptr<Deck> deck;
+  Catalogue catalogue;
+  std::unique_ptr<Scene> scene;
+};
+
+/// Throws DeckFailure with all complaints, or LibraryFailure. Warnings go to stderr.
+Loaded load_scene(const DeckArguments& arguments);
+
+}  // namespace beadwork
