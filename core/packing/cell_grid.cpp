@@ -28,8 +28,8 @@ struct Cloud {
   Real extent = 0;
 
   bool near(Index i, Index j) const {
-    const Real reach = rule.reach(radius[i], radius[j]);
-    return (position[j] - position[i]).squaredNorm() <= reach * reach;
+    const Real reach = rule.reach(radius[std::size_t(i)], radius[std::size_t(j)]);
+    return (position[std::size_t(j)] - position[std::size_t(i)]).squaredNorm() <= reach * reach;
   }
 };
 
@@ -48,15 +48,17 @@ class Level {
   Real largest() const { return largest_; }
   const std::vector<Index>& members() const { return element_; }
 
+  /// Calls visit(element) for all in the 27 cells around x; for half of them, so that two cells meet once.
   template <class Visit>
-  void visit_around(const Vec3& x, const Visit& visit) const {
+  void visit_around(const Vec3& x, bool half, const Visit& visit) const {
     const auto c = cell_of(x);
-    for (std::int64_t dz = -1; dz <= 1; ++dz)
-      for (std::int64_t dy = -1; dy <= 1; ++dy)
-        for (std::int64_t dx = -1; dx <= 1; ++dx) {
+    for (std::int64_t dz = half ? 0 : -1; dz <= 1; ++dz)
+      for (std::int64_t dy = half && dz == 0 ? 0 : -1; dy <= 1; ++dy)
+        for (std::int64_t dx = half && dz == 0 && dy == 0 ? 0 : -1; dx <= 1; ++dx) {
           const std::size_t cell = find(key_of(c[0] + dx, c[1] + dy, c[2] + dz));
           if (cell == none) continue;
-          for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) visit(element_[k]);
+          const bool own = half && dz == 0 && dy == 0 && dx == 0;
+          for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) visit(element_[k], own);
         }
   }
 
@@ -165,11 +167,10 @@ std::vector<Level> levels_of(const Cloud& cloud, std::size_t begin, std::size_t 
   return levels;
 }
 
-/// Pairs of the members of one level, with each other and with the elements of another that are larger.
-template <class Accept>
-void search(const Cloud& cloud, const Level& from, const Level& in, std::vector<std::vector<Pair>>& found,
-            const Accept& accept) {
+/// Pairs of the members of one level with each other, or with those of another level that are larger.
+void search(const Cloud& cloud, const Level& from, const Level& in, std::vector<std::vector<Pair>>& found) {
   constexpr std::size_t block = 1024;
+  const bool same = &from == &in;
   const std::size_t blocks = (from.members().size() + block - 1) / block;
   const std::size_t base = found.size();
   found.resize(base + blocks);
@@ -178,8 +179,9 @@ void search(const Cloud& cloud, const Level& from, const Level& in, std::vector<
     const std::size_t end = std::min(from.members().size(), (b + 1) * block);
     for (std::size_t k = b * block; k < end; ++k) {
       const Index i = from.members()[k];
-      in.visit_around(cloud.position[i], [&](Index j) {
-        if (accept(i, j) && cloud.near(i, j)) found[base + b].push_back({std::min(i, j), std::max(i, j)});
+      in.visit_around(cloud.position[std::size_t(i)], same, [&](Index j, bool own_cell) {
+        if (own_cell && j <= i) return;
+        if (cloud.near(i, j)) found[base + b].push_back({std::min(i, j), std::max(i, j)});
       });
     }
   }
@@ -216,16 +218,14 @@ std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<co
   const auto own = levels_of(cloud, 0, moving);
   const auto fixed = levels_of(cloud, moving, position.size());
   std::vector<std::vector<Pair>> found;
-  const auto once = [](Index i, Index j) { return i < j; };
-  const auto always = [](Index, Index) { return true; };
   for (std::size_t a = 0; a < own.size(); ++a) {
-    search(cloud, own[a], own[a], found, once);
-    for (std::size_t b = 0; b < a; ++b) search(cloud, own[a], own[b], found, always);
+    search(cloud, own[a], own[a], found);
+    for (std::size_t b = 0; b < a; ++b) search(cloud, own[a], own[b], found);
     for (const Level& f : fixed)
       if (own[a].largest() <= f.largest())
-        search(cloud, own[a], f, found, always);
+        search(cloud, own[a], f, found);
       else
-        search(cloud, f, own[a], found, always);
+        search(cloud, f, own[a], found);
   }
   return sorted(found, position.size());
 }

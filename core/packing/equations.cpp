@@ -77,13 +77,13 @@ std::vector<Real> ContactEquations::remaining() const {
   return gap;
 }
 
-int ContactEquations::solve(Real damping, Real reduction, int most) {
+int ContactEquations::solve(const Damping& damping, Real reduction, int most) {
   const std::size_t n = contact_.size();
   std::vector<Real> lambda(n, 0), residual(n), scaled(n), direction(n), image(n), inverse(n), extra(n);
   each(n, [&](std::size_t e) {
     const Contact& c = contact_[e];
     const Real diagonal = 1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
-    extra[e] = damping * diagonal;
+    extra[e] = (c.gap > 0 ? damping.open : damping.overlapping) * diagonal;
     inverse[e] = 1 / (diagonal + extra[e]);
     residual[e] = -c.gap;
     direction[e] = scaled[e] = inverse[e] * residual[e];

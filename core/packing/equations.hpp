@@ -21,6 +21,13 @@ struct Change {
   Real r;
 };
 
+/// How much of a gap may be left for a smaller change, relative to the diagonal: overlaps must go, open contacts
+/// should close if nothing stands against it.
+struct Damping {
+  Real overlapping;
+  Real open;
+};
+
 /// A, one row a contact, and its products. A change of radius costs 1/compliance as much as a move; 0 holds it.
 class ContactEquations {
  public:
@@ -28,7 +35,7 @@ class ContactEquations {
 
   /// The change with (A A^T + damping) lambda = -gap, change = A^T lambda, by conjugate gradients down to `reduction`
   /// of the first residual. Returns the number of iterations.
-  int solve(Real damping, Real reduction, int most);
+  int solve(const Damping&, Real reduction, int most);
 
   const std::vector<Change>& change() const { return change_; }
   /// Gaps that the linear equations leave.

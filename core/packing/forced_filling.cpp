@@ -62,25 +62,32 @@ void place_all(Packing& packing, Real tolerance) {
   }
 }
 
+[[noreturn]] void refuse_coordination(const Crowd& crowd, Real asked, Real reached, Real overlap) {
+  std::ostringstream out;
+  out << "a coordination number of " << asked << " cannot be reached with " << crowd.moving
+      << (crowd.moving == 1 ? " element" : " elements") << ": it is " << reached << " where they overlap by "
+      << 100 * overlap << " % of R1 + R2 on average; ask for a lower coordination number"
+      << (crowd.moving < 1000 ? ", or for more elements (those at the walls have fewer contacts)" : "");
+  throw PackingFailure(out.str());
+}
+
 /// Radii grow or shrink together until the coordination number is that asked, or a little above.
 void reach_coordination(Crowd& crowd, Real asked) {
   constexpr Real band = 0.03;
   constexpr Real slope = 90;  // recorded: dZ / d(ln R) near Z = 6.2
   Neighbours neighbours(skin);
-  Real Z = 0;
+  Real gain = 1, before = 0, Z = 0;
   for (int round = 0; round < most_rounds; ++round) {
     settle(crowd, neighbours, round == 0 ? 600 : 300, 0.03);
     Z = coordination(crowd, neighbours);
     if (Z >= asked && Z <= asked + band) return;
     if (overlaps(crowd, neighbours).mean > most_overlap) break;
-    scale_radii(crowd, 1 + std::clamp((asked + band / 2 - Z) / slope, -0.01, 0.01));
+    const Real missing = asked + band / 2 - Z;
+    if (missing * before < 0) gain /= 2;  // it went past: the steps become shorter
+    before = missing;
+    scale_radii(crowd, 1 + std::clamp(gain * missing / slope, -0.01, 0.01));
   }
-  std::ostringstream out;
-  out << "a coordination number of " << asked << " cannot be reached with " << crowd.moving
-      << " elements: it is " << Z << " where they overlap by " << 100 * overlaps(crowd, neighbours).mean
-      << " % of R1 + R2 on average; ask for a lower coordination number"
-      << (crowd.moving < 1000 ? ", or for more elements (those at the walls have fewer contacts)" : "");
-  throw PackingFailure(out.str());
+  if (Z < asked) refuse_coordination(crowd, asked, Z, overlaps(crowd, neighbours).mean);
 }
 
 }  // namespace

@@ -6,6 +6,10 @@
 #include "core/packing/sizing.hpp"
 
 namespace beadwork::packing {
+namespace {
+// Above it the largest elements go first: they would find no room between small ones.
+constexpr Real wide_spread = 0.5;
+}  // namespace
 
 Packing free_filling(const Request& request) {
   const auto start = std::chrono::steady_clock::now();
@@ -21,12 +25,17 @@ Packing free_filling(const Request& request) {
                   .warnings = {}};
   for (Real& r : packing.waiting) r *= sizing.mean_radius;
 
+  InsertionRule rule{.tries = request.tries};
+  if (request.dispersion.spread > wide_spread) {
+    std::sort(packing.waiting.begin(), packing.waiting.end(), std::greater<>());
+    rule.patience = 100;
+  }
   InsertionGrid grid(request.region, *std::max_element(packing.waiting.begin(), packing.waiting.end()));
   for (std::size_t k = 0; k < request.around.position.size(); ++k)
     grid.add_obstacle({request.around.position[k], request.around.radius[k]});
   Random random(request.seed, 2);
   std::vector<Ball> placed;
-  insert_at_random(grid, request.region, {.tries = request.tries}, random, packing.waiting, placed);
+  insert_at_random(grid, request.region, rule, random, packing.waiting, placed);
   if (placed.empty())
     throw PackingFailure("no element found a place in " + std::to_string(request.tries) +
                          " tries: the obstacles fill the region; remove some, or ask for smaller elements");

@@ -27,7 +27,6 @@ InsertionGrid::InsertionGrid(const Region& region, Real largest_radius) : reach_
   for (int a = 0; a < 3; ++a) cells_[a] = std::max(1, int(std::ceil(extent[a] / edge_)));
   const std::size_t count = std::size_t(cells_[0]) * std::size_t(cells_[1]) * std::size_t(cells_[2]);
   first_.assign(count, -1);
-  obstacles_.resize(count);
 }
 
 Eigen::Vector3i InsertionGrid::place_of(const Vec3& x) const {
@@ -44,6 +43,7 @@ void InsertionGrid::add(const Ball& ball) {
 }
 
 void InsertionGrid::add_obstacle(const Ball& ball) {
+  if (obstacles_.empty()) obstacles_.resize(first_.size());
   const Vec3 arm = Vec3::Constant(ball.r + reach_);
   const Eigen::Vector3i from = place_of(ball.x - arm), to = place_of(ball.x + arm);
   const Real cell_radius = edge_ * std::sqrt(Real(3)) / 2;
@@ -59,7 +59,7 @@ void InsertionGrid::add_obstacle(const Ball& ball) {
 Real InsertionGrid::clearance(const Ball& ball, Real least) const {
   Real clearance = 1;
   const Eigen::Vector3i middle = place_of(ball.x);
-  for (const Ball& obstacle : obstacles_[flat(middle)])
+  for (const Ball& obstacle : obstacles_at(flat(middle)))
     if (!lower(clearance, least, ball, obstacle)) return clearance;
   const Eigen::Vector3i from = (middle.array() - 1).max(0), to = (middle.array() + 1).min(cells_.array() - 1);
   Eigen::Vector3i c;
@@ -72,7 +72,7 @@ Real InsertionGrid::clearance(const Ball& ball, Real least) const {
 }
 
 bool InsertionGrid::clear_of_obstacles(const Vec3& x, Real margin) const {
-  for (const Ball& obstacle : obstacles_[cell_of(x)])
+  for (const Ball& obstacle : obstacles_at(cell_of(x)))
     if ((obstacle.x - x).squaredNorm() < (obstacle.r + margin) * (obstacle.r + margin)) return false;
   return true;
 }
@@ -100,18 +100,21 @@ bool find_place(const InsertionGrid& grid, const Region& region, const Insertion
 
 void insert_at_random(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
                       std::vector<Real>& radii, std::vector<Ball>& placed) {
-  // One go for each waiting radius in turn: a large element that finds no room does not hold up the others.
+  // The radii take turns: a large element that finds no room does not hold up the others.
   int failed = 0;
   while (!radii.empty() && failed < rule.tries) {
     std::size_t kept = 0;
     for (const Real r : radii) {
       Ball ball{zero<Vec3>(), r};
-      if (failed < rule.tries && find_place(grid, region, rule, random, ball)) {
+      bool found = false;
+      for (int go = 0; go < rule.patience && !found && failed < rule.tries; ++go) {
+        found = find_place(grid, region, rule, random, ball);
+        failed = found ? 0 : failed + 1;
+      }
+      if (found) {
         grid.add(ball);
         placed.push_back(ball);
-        failed = 0;
       } else {
-        ++failed;
         radii[kept++] = r;
       }
     }

@@ -2,6 +2,7 @@
 // Placing elements at random where there is room.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/random.hpp"
@@ -30,6 +31,10 @@ class InsertionGrid {
   std::size_t flat(const Eigen::Vector3i& c) const {
     return (std::size_t(c[2]) * std::size_t(cells_[1]) + std::size_t(c[1])) * std::size_t(cells_[0]) + std::size_t(c[0]);
   }
+  std::span<const Ball> obstacles_at(std::size_t cell) const {
+    if (obstacles_.empty()) return {};
+    return obstacles_[cell];
+  }
   struct Entry {
     Ball ball;
     Index next;
@@ -40,13 +45,14 @@ class InsertionGrid {
   Eigen::Vector3i cells_;
   std::vector<Index> first_;  ///< per cell: its last entry, which names the one before
   std::vector<Entry> entry_;
-  std::vector<std::vector<Ball>> obstacles_;
+  std::vector<std::vector<Ball>> obstacles_;  ///< per cell; empty if there are none
 };
 
 struct InsertionRule {
   Real tolerance = 0;  ///< largest overlap / (R1 + R2)
   int choices = 1;     ///< random places looked at for each element; the one with the most room is taken
-  int tries = 20000;   ///< ends after so many elements in a row found no place
+  int patience = 1;    ///< goes of an element before the next one's turn
+  int tries = 20000;   ///< ends after so many goes in a row found no place
 };
 
 /// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed` and entered

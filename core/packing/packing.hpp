@@ -70,8 +70,11 @@ void forced_filling(Packing&, const ForcedFilling& = {});
 
 struct Relaxation {
   Real overlap = 1e-7;        ///< largest overlap / (R1 + R2) that may be left, walls included
-  Real radius_change = 0.03;  ///< each radius may change by this share; 0: all radii by one common factor only
+  /// Each radius may change by this share beside the common factor, and by a fifth of the spread at most; it stays in
+  /// the law's range. 0: all radii by one common factor only, which leaves the contacts of a jammed packing (Z near 6).
+  Real radius_change = 0.05;
 };
+/// The contacts stay, their overlap goes: places and radii change a little until neighbours just touch.
 void relaxation(Packing&, const Relaxation& = {});
 
 }  // namespace beadwork::packing

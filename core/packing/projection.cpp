@@ -10,7 +10,11 @@
 namespace beadwork::packing {
 namespace {
 
-constexpr int most_rounds = 30;
+constexpr int most_rounds = 60;
+// The first rounds go half the way, so that contacts that come up are met one by one.
+constexpr int gentle_rounds = 3;
+constexpr Real gentle_share = 0.5;
+constexpr Damping damping{.overlapping = 1e-3, .open = 2e-3};
 constexpr Real radius_compliance = 0.2;  // radii give way less than places; recorded: the least iterations near 0.1-0.3
 
 /// A pair of elements, or an element and -1 - wall.
@@ -60,42 +64,33 @@ Found overlapping(const Crowd& crowd, const NeighbourList& list) {
   });
 }
 
-/// Radii as they were drawn and how far each may go.
+/// Radii as they were drawn, and how far each may still go.
 class Allowance {
  public:
   Allowance(const Crowd& crowd, const RadiusBounds& bounds) : bounds_(bounds), compliance_(crowd.moving) {
     for (std::size_t i = 0; i < crowd.moving; ++i) drawn_.push_back(crowd.ball[i].r);
     drawn_mean_ = mean_radius(crowd);
-    hold(crowd);
+    apply(crowd.ball, mean_radius(crowd), nullptr);
   }
 
   const std::vector<Real>& compliance() const { return compliance_; }
 
-  /// Puts radii that left their bounds back on them and holds those for the next round. The bounds go with the mean.
-  void hold(const Crowd& crowd) {
-    const Real mean = mean_radius(crowd);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < crowd.moving; ++i) {
-      const auto [low, high] = range(i, mean);
-      const bool free = crowd.ball[i].r > low && crowd.ball[i].r < high;
-      compliance_[i] = free ? radius_compliance : 0;
-    }
-  }
-  void clip(Crowd& crowd) const {
-    const Real mean = mean_radius(crowd);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < crowd.moving; ++i) {
-      const auto [low, high] = range(i, mean);
-      crowd.ball[i].r = std::clamp(crowd.ball[i].r, low, high);
-    }
-  }
+  /// Puts radii that left their bounds back on them. The nearer a radius has come to the change it is allowed, the less
+  /// it gives way in the next round; one at the end of the law's range is held.
+  void apply(Crowd& crowd) { apply(crowd.ball, mean_radius(crowd), crowd.ball.data()); }
 
  private:
-  std::pair<Real, Real> range(std::size_t i, Real mean) const {
-    const Real own = drawn_[i] / drawn_mean_ * mean;
-    const Real low = std::max(own * (1 - bounds_.change), std::min(own, bounds_.low * mean));
-    const Real high = std::min(own * (1 + bounds_.change), std::max(own, bounds_.high * mean));
-    return {low, high};
+  void apply(const std::vector<Ball>& ball, Real mean, Ball* clipped) {
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < compliance_.size(); ++i) {
+      const Real own = drawn_[i] / drawn_mean_ * mean;
+      const Real low = std::max(own * (1 - bounds_.change), std::min(own, bounds_.low * mean));
+      const Real high = std::min(own * (1 + bounds_.change), std::max(own, bounds_.high * mean));
+      const Real r = ball[i].r;
+      const Real used = (r / own - 1) / bounds_.change;
+      compliance_[i] = r < low || r > high ? 0 : radius_compliance * (1 - used * used);
+      if (clipped) clipped[i].r = std::clamp(r, low, high);
+    }
   }
   RadiusBounds bounds_;
   std::vector<Real> drawn_;
@@ -103,14 +98,14 @@ class Allowance {
   std::vector<Real> compliance_;
 };
 
-void add(const std::vector<Change>& change, Crowd& crowd) {
+void add(const std::vector<Change>& change, Real share, Crowd& crowd) {
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < crowd.moving; ++i) {
     // Half a radius at most: a round that goes astray must not throw elements out of the region.
-    const Real length = change[i].u.norm();
-    const Real most = crowd.ball[i].r / 2;
-    crowd.ball[i].x += length > most ? Vec3(most / length * change[i].u) : change[i].u;
-    crowd.ball[i].r = std::max(crowd.ball[i].r + change[i].r, crowd.ball[i].r / 2);
+    const Vec3 u = share * change[i].u;
+    const Real length = u.norm(), most = crowd.ball[i].r / 2;
+    crowd.ball[i].x += length > most ? Vec3(most / length * u) : u;
+    crowd.ball[i].r = std::max(crowd.ball[i].r + share * change[i].r, crowd.ball[i].r / 2);
   }
 }
 
@@ -122,7 +117,7 @@ Real rms_gap(const std::vector<Contact>& contacts) {
 
 /// Keeps the contacts that the linear equations could close.
 std::vector<Key> closable(const std::vector<Contact>& contacts, const std::vector<Real>& remaining) {
-  const Real limit = 0.1 * rms_gap(contacts);
+  const Real limit = 2 * rms_gap(contacts);
   std::vector<Key> kept;
   for (std::size_t e = 0; e < contacts.size(); ++e)
     if (remaining[e] <= limit) kept.push_back({contacts[e].i, contacts[e].j});
@@ -133,8 +128,10 @@ std::vector<Key> closable(const std::vector<Contact>& contacts, const std::vecto
 
 Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap) {
   Projected result;
+  std::vector<Key> known = overlapping(crowd, neighbours.of(crowd)).keys;
+  std::sort(known.begin(), known.end());
+  scale_radii(crowd, 1 - overlaps(crowd, neighbours).mean);  // what all must give is not for some to give
   Allowance allowance(crowd, bounds);
-  std::vector<Key> known;
   for (;; ++result.rounds) {
     Found found = overlapping(crowd, neighbours.of(crowd));
     result.largest = found.largest;
@@ -146,12 +143,11 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
 #pragma omp parallel for schedule(static)
     for (std::size_t e = 0; e < keys.size(); ++e) contacts[e] = contact_of(crowd, keys[e]);
     ContactEquations equations(crowd.moving, contacts, allowance.compliance());
-    const Real damping = result.rounds < 3 ? 1e-3 : 1e-5;
     result.iterations += equations.solve(damping, 1e-3, 400);
-    add(equations.change(), crowd);
-    known = closable(contacts, equations.remaining());
-    allowance.hold(crowd);
-    allowance.clip(crowd);
+    const bool gently = result.rounds < gentle_rounds;
+    add(equations.change(), gently ? gentle_share : 1, crowd);
+    known = gently ? std::move(keys) : closable(contacts, equations.remaining());
+    allowance.apply(crowd);
   }
 }
 

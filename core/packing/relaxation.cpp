@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/packing/blocks.hpp"
+#include "core/packing/order_measure.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/projection.hpp"
 #include "core/packing/settle.hpp"
@@ -57,12 +58,43 @@ void decompress(Crowd& crowd, Neighbours& neighbours) {
   }
 }
 
-void warn(Packing& packing, const Projected& projected, Real goal) {
+template <class... Parts>
+void warn(Packing& packing, const Parts&... parts) {
   std::ostringstream out;
-  out << "relaxation stopped after " << projected.rounds << " rounds at an overlap of " << projected.largest
-      << " (R1 + R2), asked was " << goal << ": all radii were reduced by that share instead, and contacts opened; "
-      << "let the radii change more, or ask for a lower coordination number";
+  (out << ... << parts);
   packing.warnings.push_back(out.str());
+}
+
+/// Contacts per element, counting gaps up to a thousandth: what bonds will be made of.
+Real coordination_with_gap(Crowd crowd) {
+  scale_radii(crowd, 1.001);
+  Neighbours neighbours(skin);
+  return coordination(crowd, neighbours);
+}
+
+void warn_of_lost_contacts(Packing& packing, const Crowd& crowd, Real before) {
+  const Real after = coordination_with_gap(crowd);
+  if (after < before - 0.05)
+    warn(packing, "relaxation lowered the coordination number from ", before, " to ", after,
+         " (gaps up to .001 counted); let the radii change more, widen the spread, or ask for less to begin with");
+}
+
+void warn_of_crystal(Packing& packing, const Crowd& crowd) {
+  constexpr Real narrow = 0.05, many = 0.02;
+  const Order order = bond_order(crowd);
+  if (packing.dispersion.spread >= narrow && order.crystalline <= many) return;
+  warn(packing, "a spread of the radii of ", packing.dispersion.spread, " lets elements crystallise: ",
+       100 * order.crystalline, " % have the surroundings of a crystal (below .1 % at a spread of .25); the solid is ",
+       "then not isotropic; use a spread of .1 or more");
+}
+
+void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighbours, Real goal) {
+  const Real left = shrinkage_needed(crowd, neighbours);
+  if (left <= goal) return;
+  scale_radii(crowd, 1 - left);
+  if (left > 1e-3)
+    warn(packing, "relaxation left an overlap of ", left, " (R1 + R2): all radii were reduced by that share, which ",
+         "opened contacts");
 }
 
 }  // namespace
@@ -74,16 +106,16 @@ void relaxation(Packing& packing, const Relaxation& rule) {
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
   Neighbours neighbours(skin);
+  const Real before = coordination(crowd, neighbours);
   const Real spread = packing.dispersion.spread;
-  if (rule.radius_change > 0 && spread > 0) {
-    const Projected projected =
-        project(crowd, neighbours, {1 - spread, 1 + spread, rule.radius_change}, rule.overlap / 2);
-    if (projected.largest > rule.overlap) warn(packing, projected, rule.overlap);
-  } else {
+  const Real change = std::min(rule.radius_change, spread / 5);
+  if (change > 0)
+    project(crowd, neighbours, {1 - spread, 1 + spread, change}, rule.overlap / 2);
+  else
     decompress(crowd, neighbours);
-  }
-  const Real left = shrinkage_needed(crowd, neighbours);
-  if (left > rule.overlap / 2) scale_radii(crowd, 1 - left);
+  shrink_away_last_overlap(packing, crowd, neighbours, rule.overlap / 2);
+  warn_of_lost_contacts(packing, crowd, before);
+  warn_of_crystal(packing, crowd);
   put_back(crowd, order, packing);
   packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
 }

@@ -92,22 +92,31 @@ Coordination coordination_of(const Crowd& crowd, const std::vector<Pair>& contac
           mean_contacts(crowd, contacts, inside, any)};
 }
 
-/// Eigenvalues of <n n> over contacts among moving elements that `counts` accepts.
+/// Eigenvalues of <n n> over the contacts of the elements that `counts` accepts, each contact once for each of its ends:
+/// leaving out contacts that cross the border would favour directions along it.
 template <class Counts>
 std::array<Real, 3> fabric_of(const Crowd& crowd, const std::vector<Pair>& contacts, const Counts& counts) {
   Mat3 sum = Mat3::Zero();
-  std::size_t n = 0;
+  Real ends = 0;
   for (const Pair& p : contacts) {
     const auto i = std::size_t(p.i), j = std::size_t(p.j);
-    if (j >= crowd.moving || !counts(i) || !counts(j)) continue;
+    const Real weight = j < crowd.moving ? Real(counts(i)) + Real(counts(j)) : 0;
     const Vec3 d = crowd.ball[j].x - crowd.ball[i].x;
-    if (!(d.norm() > 0)) continue;
-    sum += d * d.transpose() / d.squaredNorm();
-    ++n;
+    if (weight == 0 || !(d.norm() > 0)) continue;
+    sum += weight * d * d.transpose() / d.squaredNorm();
+    ends += weight;
   }
-  if (n == 0) return {0, 0, 0};
-  const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum / Real(n)).eigenvalues();
+  if (ends == 0) return {0, 0, 0};
+  const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum / ends).eigenvalues();
   return {values[0], values[1], values[2]};
+}
+
+Real wall_contacts(const Crowd& crowd, Real tolerance) {
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < crowd.moving; ++i)
+    for (std::size_t w = 0; w < crowd.walls.size(); ++w)
+      contacts += crowd.walls.view(w, crowd.ball[i].x).distance <= (1 + tolerance) * crowd.ball[i].r;
+  return Real(contacts) / Real(crowd.moving);
 }
 
 void report_radii(const Packing& packing, PackingReport& r) {
@@ -200,6 +209,7 @@ PackingReport report(const Packing& packing, Real tolerance) {
   r.touching = coordination_of(crowd, touching, loose, bulk);
   r.near = coordination_of(crowd, near, loose_near, bulk);
   r.rattlers = Real(std::accumulate(loose.begin(), loose.end(), 0)) / Real(r.count);
+  r.wall_contacts = wall_contacts(crowd, tolerance);
   r.bulk_count = std::size_t(std::accumulate(bulk.begin(), bulk.end(), 0));
   r.fabric = fabric_of(crowd, near, [](std::size_t) { return true; });
   r.fabric_bulk = fabric_of(crowd, near, [&](std::size_t i) { return bulk[i] != 0; });

@@ -26,6 +26,7 @@ struct PackingReport {
   Coordination near;           ///< gap <= tolerance (R1 + R2): what bonds are made of
   Real tolerance = 0;
   Real rattlers = 0;           ///< share of the elements
+  Real wall_contacts = 0;      ///< contacts with walls per element
   Real max_overlap = 0;        ///< overlap / (R1 + R2), over all pairs and, over R, all walls
   Real mean_overlap = 0;       ///< over the pairs that overlap
   std::array<Real, 3> fabric{};       ///< eigenvalues of <n n> over the near contacts, rising; their sum is 1
