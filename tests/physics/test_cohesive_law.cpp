@@ -247,11 +247,12 @@ TEST(cohesion, failure_in_either_mode_takes_both_and_leaves_only_contact) {
 
 TEST(cohesion, a_failed_contact_dissipates_no_more) {
   const auto arms = contact_arms(Vec3(2, 0, 0), 1, 1, identity(), identity());
-  Openings<Real> history{0, 0.9};
-  const Real gone = cohesive_dissipated<both>(laws, rest, history);
-  history =
-      cohesive_wrench<both>(laws, rest, arms, Vec3(2.7, 0.3, 0), identity(), identity(), history).history;
-  EXPECT_EQ(cohesive_dissipated<both>(laws, rest, history), gone);
+  for (const Openings<Real> failed : {Openings<Real>{0, 0.9}, Openings<Real>{1.1, 0}}) {  // slid off; opened
+    const auto moved =
+        cohesive_wrench<both>(laws, rest, arms, Vec3(2.7, 0.3, 0), identity(), identity(), failed);
+    EXPECT_EQ(cohesive_dissipated<both>(laws, rest, moved.history),
+              cohesive_dissipated<both>(laws, rest, failed));
+  }
 }
 
 TEST(cohesion, the_energy_balance_closes_when_one_mode_takes_the_other_along) {
@@ -327,6 +328,35 @@ TEST(cohesion, a_closed_contact_has_the_stiffness_of_both_modes) {
         cohesive_stiffness<both>(laws, rest, c.arms, c.p.d(), c.p.q1, c.p.q2, {0, 0}, slope);
     EXPECT_LT((found - expected).norm(), 1e-8 * expected.norm());
   }
+}
+
+TEST(cohesion, an_opened_contact_slides_more_easily_by_the_share_that_turns_with_the_line_of_centres) {
+  const Vec3 d(2.08, 0, 0);
+  const auto arms = contact_arms(Vec3(2, 0, 0), 0.8, 1.2, identity(), identity());
+  const Pair p{zero<Vec3>(), d, identity(), identity()};
+  const auto forces = [&](const Pair& at) {
+    return generalised(cohesive_wrench<both>(laws, rest, arms, at.d(), at.q1, at.q2, {0, 0}).wrench);
+  };
+  const Matrix12 expected = -jacobian(forces, p, 1e-4);
+  const Matrix12 found =
+      cohesive_stiffness<both>(laws, rest, arms, d, p.q1, p.q2, {0, 0}, CohesiveSlope::tangent);
+  EXPECT_LT((found - expected).norm(), 1e-8 * expected.norm());
+}
+
+TEST(cohesion, a_contact_that_softens_in_shear_has_its_slope_along_the_slip_and_its_secant_across) {
+  const CohesiveLaws<Real> fine{law, {40, 1e-5, 1e-4}};  // slips so small that the arms hardly turn
+  const Vec3 d(2, 0, 0);
+  const auto arms = contact_arms(d, 1, 1, identity(), identity());
+  const Pair p{zero<Vec3>(), d, identity(), exp_map(Vec3(0, 0, 5e-5))};
+  const auto torque = [&](const Pair& at) {
+    return generalised(cohesive_wrench<shear>(fine, rest, arms, at.d(), at.q1, at.q2, {0, 0}).wrench);
+  };
+  const Matrix12 expected = -jacobian(torque, p, 1e-6);
+  const Matrix12 found =
+      cohesive_stiffness<shear>(fine, rest, arms, d, p.q1, p.q2, {0, 0}, CohesiveSlope::tangent);
+  EXPECT_LT(found(11, 11), 0);  // about z: softening
+  EXPECT_GT(found(10, 10), 0);  // about y: across the slip
+  EXPECT_LT((found - expected).norm(), 1e-3 * expected.norm());
 }
 
 TEST(cohesion, a_softening_contact_has_a_negative_slope_and_a_positive_secant) {
