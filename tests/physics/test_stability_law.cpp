@@ -249,6 +249,19 @@ TEST(stability, what_is_held_limits_no_step) {
   EXPECT_TRUE(std::isinf(stable_step(network, mobility).dt));
 }
 
+TEST(stability, the_bound_is_not_deceived_by_a_bond_with_many_middling_modes) {
+  // a thick beam has the greater norm, a spring elsewhere the higher frequency
+  const auto rest = round_beam(Vec3(2, 0, 0), 1, 0.3, 0.6);
+  const Real k = 1.05 * rest.axial;
+  ElasticNetwork network(4);
+  network.add(0, 1, beam_stiffness(rest, Vec3(2, 0, 0)));
+  network.add(2, 3, spring_stiffness({2, k}, Vec3(2, 0, 0)));
+  const std::vector<Real> mass(4, 1), inertia(4, 0.4);
+  const auto bound = bond_bound(network, Mobility(mass, inertia));
+  EXPECT_EQ(bound.bond, 1);
+  EXPECT_NEAR(bound.lambda, 2 * k, 1e-5 * k);
+}
+
 TEST(stability, no_bonds_no_limit) {
   const ElasticNetwork network(3);
   const std::vector<Real> mass(3, 1);
