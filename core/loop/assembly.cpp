@@ -204,6 +204,8 @@ void Assembly::compile_until(Stage& stage) {
   } else if (stage.mover().until.given()) {
     text = *stage.mover().until;
     at = stage.mover().until.at();
+  } else if (stage.mover().until.in_deck()) {
+    return;  // what is wrong with it has been said
   } else {
     complaints_.error(stage.mover().at(), fmt::format("<{}> needs 'until': {}", stage.mover().tag(), stage.mover().until.info().doc));
     return;

@@ -41,7 +41,7 @@ class Assembly {
   void meet(const Plugin& reader, const FieldUse& use);
   void meet_names(const Plugin& reader, const ParamBase& fields);
   bool provide(On on, const std::string& name, const std::string& family);
-  bool derive(const std::string& name);
+  bool derive(const std::string& name, const Plugin& reader);
   std::vector<std::string> providable(On on, const std::string& family) const;
   Table* table_of(const Plugin& plugin, On on) const;
 

@@ -77,8 +77,8 @@ void Assembly::meet(const Plugin& reader, const FieldUse& use) {
     scene_.section_readers.insert(&reader);
     return;
   }
+  if (on == On::elements && derive(use.field().name, reader)) return;
   if (table->find(reader.column_name(use)) || provide(on, use.field().name, reader.family())) return;
-  if (on == On::elements && derive(use.field().name)) return;
   const std::string holder = on == On::bonds ? fmt::format("bond family '{}'", reader.family()) : "the elements";
   complaints_.error(reader.at(), fmt::format("<{}> reads '{}' of {}, which nothing in this deck provides{}", reader.tag(),
                                              use.field().name, holder,
@@ -88,13 +88,13 @@ void Assembly::meet(const Plugin& reader, const FieldUse& use) {
 // Fields asked for by name, wherever they are: on the elements, on every family that has them.
 void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
   for (const std::string& name : fields.names()) {
-    bool found = scene_.domain->elements().find(name) != nullptr || provide(On::elements, name, "");
+    bool found = derive(name, reader) || scene_.domain->elements().find(name) || provide(On::elements, name, "");
     for (const std::string& family : scene_.families) {
       const bool offered = provide(On::bonds, name, family);
       if (offered) scene_.section_readers.insert(&reader);
       found |= offered || scene_.domain->find_family(family)->rows().find(name);
     }
-    if (found || derive(name)) continue;
+    if (found) continue;
     std::vector<std::string> known = providable(On::elements, "");
     for (const std::string& family : scene_.families)
       for (const std::string& more : providable(On::bonds, family)) known.push_back(more);
@@ -116,19 +116,30 @@ bool Assembly::provide(On on, const std::string& name, const std::string& family
   return found;
 }
 
-bool Assembly::derive(const std::string& name) {
+// Brings in the plugin that derives a field, named like it, unless it is there already; notes who reads it.
+bool Assembly::derive(const std::string& name, const Plugin& reader) {
+  if (!catalogue_.find(Kind::derive, name)) return false;
+  std::set<const Plugin*> readers{&reader};
+  if (const auto* through = dynamic_cast<const Derived*>(&reader)) readers = scene_.readers_of(*through);
+  for (const Derived* there : scene_.derived)
+    if (there->tag() == name) {
+      scene_.derived_for[there].insert(readers.begin(), readers.end());
+      return true;
+    }
   std::unique_ptr<Plugin> plugin = catalogue_.make(Kind::derive, name);
-  if (!plugin) return false;
   Node silent;
   silent.tag = name;
   silent.at = deck_.root->at;
   plugin->configure(silent, "derive." + name, deck_.scope, complaints_);
   for (const FieldUse* use : plugin->uses())
     if (use->verb() != Verb::reads) {
-      Column& column = table_of(*plugin, use->field().on)->add(use->field());
+      Field field = use->field();
+      field.name = plugin->column_name(*use);
+      Column& column = table_of(*plugin, field.on)->add(field);
       if (use->verb() == Verb::keeps) column.keep();
     }
   scene_.derived.push_back(static_cast<Derived*>(plugin.get()));
+  scene_.derived_for[scene_.derived.back()] = readers;
   scene_.plugins.push_back(std::move(plugin));
   return true;
 }

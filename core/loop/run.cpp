@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/failure.hpp"
+#include "core/loop/blame.hpp"
 #include "core/loop/run_curve.hpp"
 
 namespace beadwork {
@@ -16,6 +17,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
   omp_set_num_threads(options_.threads);
   gather_constraints();
   add_state_columns();
+  bind_all();
 }
 
 Run::~Run() = default;
@@ -75,14 +77,14 @@ void Run::enter(Stage& stage, bool resumed) {
   if (!resumed) {
     for (auto& [law, table] : laws_) {
       if (scene_.first_stage(*law) != stage_number()) continue;
-      law->connect(domain(), *table);
+      blaming(*law, moment_, [&, law = law, table = table] { law->connect(domain(), *table); });
       options_.say(fmt::format("bond family '{}': {} bonds. {}", law->family(), table->size(), law->remark()));
     }
-    for (Load* load : stage.loads) load->start(domain());
+    for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });
     check_constraints(stage, constraints());
   }
   for (auto& [law, table] : laws_) live_[table] = table->live();
-  stage.mover().prepare(*this, resumed);
+  blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
   if (!resumed) look();
 }
 
@@ -95,18 +97,18 @@ bool Run::over() {
 
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
 void Run::step() {
-  stage().mover().step(*this);
+  blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
   log_events();
   break_bonds();
-  for (Load* load : stage().loads) load->account(domain(), moment_);
+  for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
   look();
 }
 
 void Run::evaluate(bool settle) {
   Evaluation how{true, settle, sections_wanted()};
   for (auto& [law, table] : laws_) {
-    law->act(domain(), *table, how);
+    blaming(*law, moment_, [&, law = law, table = table] { law->act(domain(), *table, how); });
     how.clear = false;
   }
   if (how.clear) {
@@ -114,7 +116,7 @@ void Run::evaluate(bool settle) {
     for (Index row = 0; row < domain().size(); ++row) force.set(row, zero<Vec3>());
   }
   domain().gather();
-  for (Load* load : stage().loads) load->push(domain(), moment_);
+  for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->push(domain(), moment_); });
 }
 
 bool Run::sections_wanted() const {
@@ -146,7 +148,7 @@ void Run::break_bonds() {
   std::vector<std::pair<Failure*, std::vector<Index>>> verdicts;
   for (Failure* failure : stage().failures) {
     if (moment_.step % *failure->every != 0) continue;
-    auto rows = failure->judge(domain(), *domain().find_family(failure->family()));
+    auto rows = blaming(*failure, moment_, [&] { return failure->judge(domain(), *domain().find_family(failure->family())); });
     if (!rows.empty()) verdicts.emplace_back(failure, std::move(rows));
   }
   if (verdicts.empty()) return;
@@ -176,12 +178,13 @@ void Run::break_bonds() {
 }
 
 void Run::look() {
+  if (!watched_) return;
   std::set<const Derived*> done;
   for (Watcher* watcher : stage().watchers) {
     if (!watcher->wants(moment_)) continue;
     for (Derived* derived : scene_.derived)
-      if (done.insert(derived).second) derived->derive(domain());
-    watcher->look(*this);
+      if (done.insert(derived).second) blaming(*derived, moment_, [&] { derived->derive(domain()); });
+    blaming(*watcher, moment_, [&] { watcher->look(*this); });
   }
 }
 

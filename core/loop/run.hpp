@@ -33,6 +33,15 @@ struct RunFigures {
   std::vector<std::string> packing_reports;  ///< JSON objects
 };
 
+/// What a few steps of the first stage tell of a run, for `plan`.
+struct Trial {
+  Real fill_seconds = 0;      ///< filling, bonding, finding the time step
+  Real time_step = 0;         ///< [s]
+  std::string limited_by;
+  int steps = 0;
+  Real seconds_per_step = 0;  ///< without what is recorded
+};
+
 class Run final : private Workings, private Sight {
  public:
   Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options);
@@ -40,6 +49,8 @@ class Run final : private Workings, private Sight {
 
   /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved.
   void all();
+  /// Instead of all(): fills, bonds, and goes on for some seconds of wall time. Nothing is recorded.
+  Trial trial(Real seconds);
   const RunFigures& figures() const { return figures_; }
 
  private:
@@ -111,6 +122,7 @@ class Run final : private Workings, private Sight {
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
   std::optional<Recorder> recorder_;
   std::int64_t resumed_at_ = -1;
+  bool watched_ = true;  ///< false in a trial: no watcher looks
   Clock::time_point began_, saved_, shown_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Plugins, domain and schedule of one deck, checked against one another and ready to run.
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -47,10 +48,12 @@ class Scene {
   std::vector<std::string> families;  ///< names, in the order of their tables
   std::unique_ptr<Domain> domain;     ///< with every column that the plugins ask for, and no rows yet
   std::set<const Plugin*> section_readers;  ///< plugins that read what bond laws offer of each bond
+  std::map<const Derived*, std::set<const Plugin*>> derived_for;  ///< who reads a derived field, through others too
 
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;
+  const std::set<const Plugin*>& readers_of(const Derived& derived) const { return derived_for.at(&derived); }
 };
 
 }  // namespace beadwork

@@ -25,11 +25,11 @@ inline std::string packing_json(const std::string& set, const std::string& step,
       R"("rattlers":{:.4g},"max_overlap":{:.4g},"mean_overlap":{:.4g},)"
       R"("fabric_eigenvalues":[{:.5g}],"fabric_eigenvalues_bulk":[{:.5g}],"density":{:.5g},"density_bulk":{:.5g},)"
       R"("mean_radius":{:.8g},"min_radius":{:.8g},"max_radius":{:.8g},"kolmogorov_smirnov_distance":{:.4g},"bond_order_q6":{:.4g},)"
-      R"("crystalline":{},"radius_over_mean":{{"edges":[{:.6g}],"counts":[{}],"unit":"1"}}}})",
+      R"("crystalline_share":{:.4g},"radius_over_mean":{{"edges":[{:.6g}],"counts":[{}],"unit":"1"}}}})",
       set, step, r.count, r.seed, r.seconds, r.near.all, r.near.without_rattlers, r.near.bulk, r.touching.all,
       r.touching.without_rattlers, r.tolerance, r.rattlers, r.max_overlap, r.mean_overlap, fmt::join(r.fabric, ","),
       fmt::join(r.fabric_bulk, ","), r.density, r.density_bulk, r.mean_radius, r.min_radius, r.max_radius, r.kolmogorov, r.bond_order,
-      r.crystalline, fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
+      r.crystalline_share, fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
 }
 
 /// Filling goes wrong in two ways, both the deck's: a request that makes no sense, and one that cannot be met.

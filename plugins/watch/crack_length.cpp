@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.hpp"
+#include "core/domain/vocabulary.hpp"
+#include "core/plugin/kinds.hpp"
+
+namespace beadwork {
+
+/// How far a crack has run along a plane of cohesive contacts, by two contours: where contacts are fully open, and where
+/// damage begins. What lies between them is the process zone (Fig 15 of the paper).
+///
+/// Each contour is the length of the pre-crack plus the damaged area (open area) over the width: for a straight front
+/// that is its place, for a ragged one its mean place.
+class CrackLength final : public Watcher {
+ public:
+  static constexpr const char* about = "Length of a crack along a plane of cohesive contacts, by open contacts and by damage, and the process zone";
+  Param<std::string> of{this, {.name = "of", .doc = "Family of the contacts", .role = Role::family}};
+  Param<std::string> axis{this, {.name = "axis", .doc = "Axis along which the crack runs", .choices = {"x", "y", "z"}}};
+  Param<Real> from{this, {.name = "from", .unit = "m", .doc = "Place of the crack's mouth along the axis", .fallback = "0 m"}};
+  Param<Real> start{this, {.name = "start", .unit = "m", .doc = "Place of the first contact: the end of the pre-crack"}};
+  Param<Real> end{this, {.name = "end", .unit = "m", .doc = "Place where the contacts end"}};
+  Param<std::string> against{this, {.name = "against", .doc = "Set whose driven displacement is the abscissa; time where absent", .optional = true, .role = Role::set}};
+  Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "crack"}};
+  Param<Formula> reference{this,
+                           {.name = "reference",
+                            .unit = "1",
+                            .doc = "Crack length over the whole length that theory predicts, as a formula in 'displacement'",
+                            .optional = true,
+                            .variables = {{"displacement", find_unit("m")->dimension}}}};
+  Reads<Real> damage{this, field::damage};
+  Reads<Real> area{this, {"area", On::bonds, "m2", "Area that a contact stands for"}};
+
+  std::string family() const override { return *of; }
+
+  void look(Sight& sight) override {
+    const BondTable& table = *sight.domain().find_family(*of);
+    Real all = 0, open = 0, damaged = 0;
+    for (Index b = 0; b < table.size(); ++b) {
+      all += area[b];
+      if (damage[b] >= 1) open += area[b];
+      if (damage[b] > 0) damaged += area[b];
+    }
+    const Real length = *end - *from;
+    const Real bonded = *end - *start;
+    const Real by_open = *start - *from + bonded * open / all;
+    const Real by_damage = *start - *from + bonded * damaged / all;
+    std::vector<Real> row{driven(sight), by_open / length, by_damage / length, by_damage - by_open};
+    CurvePlan plan{.name = *name,
+                   .columns = {{"displacement", "m"}, {"crack length open", "1"}, {"crack length damaged", "1"}, {"process zone", "m"}},
+                   .title = "Crack length over the whole length",
+                   .x = against.given() ? "displacement" : "time",
+                   .y = {"crack length open", "crack length damaged", "process zone"},
+                   .references = {},
+                   .kind = ""};
+    if (reference.given()) {
+      const Real displacement = row[0];
+      plan.columns.push_back({"reference", "1"});
+      row.push_back(std::min<Real>(1, (*reference)({&displacement, 1})));
+    }
+    sight.curve(plan).row(row);
+  }
+
+ private:
+  Real driven(const Sight& sight) const {
+    if (!against.given()) return 0;
+    const Moment& now = sight.moment();
+    for (const Constraint& c : sight.constraints())
+      if (c.driven && c.set == *against) return std::abs(c.motion(now.time - now.stage_start).displacement);
+    return 0;
+  }
+};
+
+}  // namespace beadwork
