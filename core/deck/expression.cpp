@@ -25,7 +25,7 @@ std::optional<Expression> Expression::compile(std::string_view text, const Locat
           0, "this expression is longer than " + std::to_string(longest_text) + " characters");
     const std::vector<Token> tokens = tokens_of(text, scope, variables);
     if (tokens.empty()) throw ExpressionMistake(0, "an expression is wanted here");
-    Recorder recorder(tokens);
+    StepRecorder recorder(tokens);
     std::vector<int> handles(tokens.size(), -1);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       const Token& token = tokens[i];

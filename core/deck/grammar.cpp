@@ -15,7 +15,7 @@ namespace {
 // ---- muParser calls plain functions, so they find the recorder here; set only while an expression is
 // compiled.
 
-thread_local Recorder* recording = nullptr;
+thread_local StepRecorder* recording = nullptr;
 
 template <Operation operation>
 double record_unary(double a) {
@@ -135,7 +135,7 @@ std::string translated(const std::vector<Token>& tokens, std::vector<std::size_t
 }  // namespace
 
 int record(const std::vector<Token>& tokens, const std::vector<int>& handles, std::size_t text_length,
-           Recorder& recorder) {
+           StepRecorder& recorder) {
   recording = &recorder;
   std::vector<std::size_t> origin;
   const std::string text = translated(tokens, origin);

@@ -11,6 +11,6 @@ namespace beadwork {
 /// Parses the tokens and records the steps. `handles` holds, for each token that is a value, its step in the
 /// recorder, else -1. Returns the step of the result. Throws ExpressionMistake.
 int record(const std::vector<Token>& tokens, const std::vector<int>& handles, std::size_t text_length,
-           Recorder& recorder);
+           StepRecorder& recorder);
 
 }  // namespace beadwork

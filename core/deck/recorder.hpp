@@ -23,9 +23,9 @@ inline std::string kind_of(const Operand& operand) {
   return operand.dimension.is_plain() ? "a plain number" : "in " + operand.dimension.name();
 }
 
-class Recorder {
+class StepRecorder {
  public:
-  explicit Recorder(const std::vector<Token>& tokens) : tokens_(tokens) {}
+  explicit StepRecorder(const std::vector<Token>& tokens) : tokens_(tokens) {}
 
   int constant(const Quantity& quantity, const Token& token) {
     return push({quantity.dimension, false, true, quantity.value, token.at, token.at + token.length}, {});
