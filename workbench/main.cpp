@@ -16,6 +16,10 @@ int main(int argc, char** argv) {
   add_run(app, chosen);
   add_check(app, chosen);
   add_report(app, chosen);
+  add_describe(app, chosen);
+  add_plan(app, chosen);
+  add_new(app, chosen);
+  add_batch(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

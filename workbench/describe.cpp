@@ -1,0 +1,108 @@
+#include "workbench/describe.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+Manual manual_of(const Catalogue& catalogue) {
+  Manual manual;
+  for (const Kind kind : all_kinds)
+    for (const std::string& tag : catalogue.tags(kind))
+      manual.push_back({kind, tag, catalogue.find(kind, tag)->about, catalogue.make(kind, tag)});
+  return manual;
+}
+
+Manual pick(Manual manual, const std::string& wanted) {
+  std::vector<std::string> known;
+  for (const Described& each : manual) {
+    known.push_back(each.tag);
+    known.push_back(each.path());
+  }
+  std::erase_if(manual, [&](const Described& each) { return each.tag != wanted && each.path() != wanted; });
+  if (manual.empty()) throw DeckFailure(fmt::format("error: no plugin '{}'{}", wanted, did_you_mean(wanted, known)));
+  return manual;
+}
+
+const char* section_doc(Kind kind) {
+  switch (kind) {
+    case Kind::fill: return "Adds elements and names sets of them. Runs once, before all else, in the deck's order.";
+    case Kind::bond: return "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; acts at every evaluation of the forces.";
+    case Kind::load: return "Moves or holds sets of elements, pushes them, or gives them a velocity to start with.";
+    case Kind::move: return "Advances the scene by one step. A stage has exactly one.";
+    case Kind::fail: return "Judges, behind the forces, which bonds break.";
+    case Kind::derive: return "Provides a field that somebody reads. Never stands in a deck: it is added by itself, and runs only in the steps in which its field is read.";
+    case Kind::watch: return "Looks at the scene every few steps and records. Changes nothing.";
+  }
+  return "";
+}
+
+const char* use_word(Kind kind, Verb verb) {
+  if (verb != Verb::writes) return verb_name(verb);
+  return kind == Kind::fill ? "fills" : "offers";
+}
+
+std::string type_words(const ParamBase& param) {
+  const std::string& unit = param.info().unit;
+  const bool has_unit = unit != "1" && !unit.empty();
+  return has_unit ? fmt::format("{} in {}", param.type(), unit) : param.type();
+}
+
+std::string range_words(const ParamBase& param) {
+  const std::string words = param.info().range.text(param.info().unit);
+  return words == "any" ? "" : words;
+}
+
+std::string as_list(const Manual& manual) {
+  std::string text;
+  const char* section = nullptr;
+  for (const Described& each : manual) {
+    if (section != kind_name(each.kind)) text += fmt::format("{}{}\n", section ? "\n" : "", kind_name(each.kind));
+    section = kind_name(each.kind);
+    text += fmt::format("  {:20} {}\n", each.tag, each.about);
+  }
+  return text;
+}
+
+namespace {
+
+struct DescribeArguments {
+  std::string plugin, format;
+  std::vector<std::string> libraries;
+};
+
+int describe(const DescribeArguments& arguments) {
+  Manual manual = manual_of(Catalogue::open({arguments.libraries.begin(), arguments.libraries.end()}));
+  if (!arguments.plugin.empty()) manual = pick(std::move(manual), arguments.plugin);
+  std::string text;
+  if (arguments.format == "xsd")
+    text = as_xsd(manual);
+  else if (arguments.format == "json")
+    text = as_json(manual);
+  else if (arguments.format == "md" || !arguments.plugin.empty())
+    text = as_markdown(manual);
+  else
+    text = as_list(manual);
+  std::fputs(text.c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("describe", "Lists the plugins, or prints the manual of one or of all");
+  verb->footer("Examples: beadwork describe cohesive-beam\n          beadwork describe --format xsd > beadwork.xsd");
+  auto arguments = std::make_shared<DescribeArguments>();
+  verb->add_option("plugin", arguments->plugin, "A plugin, such as bond/cohesive-beam or cohesive-beam");
+  verb->add_option("--format", arguments->format, "md: the manual; xsd: a schema of decks for editors; json: the same as data")
+      ->check(CLI::IsMember({"md", "xsd", "json"}));
+  verb->add_option("--plugins", arguments->libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
+  verb->callback([&chosen, arguments] { chosen = [arguments] { return describe(*arguments); }; });
+}
+
+}  // namespace beadwork

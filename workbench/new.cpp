@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+#include "workbench/describe.hpp"
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+namespace {
+
+// A deck without stages ends where its mover says, so there 'until' is no option.
+bool to_be_filled_in(const Described& each, const ParamBase& param) {
+  return param.needed() || (each.kind == Kind::move && param.info().name == "until");
+}
+
+std::string in_comment(std::string text) {
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at)) text.replace(at, 2, "- -");
+  return text;
+}
+
+std::string help_line(const ParamBase& param) {
+  std::string type = type_words(param);
+  if (const std::string range = range_words(param); !range.empty()) type += ", " + range;
+  if (param.info().fallback) type += fmt::format(", default {}", *param.info().fallback);
+  return fmt::format("         {} ({}): {}\n", param.info().name, type, param.info().doc);
+}
+
+// What is required stands in the tag, empty, and so is an error until it is filled in; the rest is told only.
+std::string skeleton(const Described& each) {
+  std::string wanted, optional, attributes;
+  for (const ParamBase* param : each.plugin->params()) {
+    const bool fill_in = to_be_filled_in(each, *param);
+    (fill_in ? wanted : optional) += help_line(*param);
+    if (fill_in) attributes += fmt::format(" {}=\"\"", param->info().name);
+  }
+  std::string comment = each.about + ".\n";
+  if (!wanted.empty()) comment += "       to be filled in:\n" + wanted;
+  if (!optional.empty()) comment += "       may be added:\n" + optional;
+  comment.pop_back();
+  return fmt::format("    <!-- {} -->\n    <{}{}/>\n", in_comment(comment), each.tag, attributes);
+}
+
+std::string skeleton_deck(const Manual& chosen, const std::string& name) {
+  std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"{}\" seed=\"1\">\n", xml_escaped(name));
+  for (const Kind kind : all_kinds) {
+    std::string section;
+    for (const Described& each : chosen)
+      if (each.kind == kind) section += skeleton(each);
+    if (!section.empty()) text += fmt::format("  <{0}>\n{1}  </{0}>\n", kind_name(kind), section);
+  }
+  return text + "</scene>\n";
+}
+
+struct NewArguments {
+  std::vector<std::string> plugins, libraries;
+  std::string out;
+};
+
+Described choose(const Catalogue& catalogue, const std::string& wanted) {
+  Manual found = pick(manual_of(catalogue), wanted);
+  if (found.size() > 1)
+    throw DeckFailure(fmt::format("error: '{}' is both {} and {}: say which", wanted, found[0].path(), found[1].path()));
+  if (found.front().kind == Kind::derive)
+    throw DeckFailure(fmt::format("error: <{}> never stands in a deck: it is added where its field is read", found.front().tag));
+  return std::move(found.front());
+}
+
+int make_deck(const NewArguments& arguments) {
+  const Catalogue catalogue = Catalogue::open({arguments.libraries.begin(), arguments.libraries.end()});
+  Manual chosen;
+  for (const std::string& wanted : arguments.plugins) chosen.push_back(choose(catalogue, wanted));
+  const std::filesystem::path out = arguments.out;
+  const std::string text = skeleton_deck(chosen, out.empty() ? "new" : out.stem().string());
+  if (out.empty()) {
+    std::fputs(text.c_str(), stdout);
+    return 0;
+  }
+  if (std::filesystem::exists(out)) throw DeckFailure(fmt::format("error: '{}' exists already; choose another name", out.string()));
+  std::ofstream file(out);
+  file << text;
+  if (!file.flush()) throw MachineFailure(fmt::format("error: cannot write '{}'", out.string()));
+  std::printf("%s: now fill in what 'beadwork check %s' asks for\n", out.c_str(), out.c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_new(CLI::App& app, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("new", "Writes the skeleton of a deck with the plugins that you choose");
+  verb->footer("Example: beadwork new free-filling cohesive-beam hold pull verlet force-curve --out deck.xml");
+  auto arguments = std::make_shared<NewArguments>();
+  verb->add_option("plugin", arguments->plugins, "Plugins, such as bond/cohesive-beam or cohesive-beam")->required();
+  verb->add_option("--out", arguments->out, "File to be written; standard output where absent");
+  verb->add_option("--plugins", arguments->libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
+  verb->callback([&chosen, arguments] { chosen = [arguments] { return make_deck(*arguments); }; });
+}
+
+}  // namespace beadwork

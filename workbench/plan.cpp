@@ -1,0 +1,141 @@
+#include "workbench/plan.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+#include "core/loop/run.hpp"
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+namespace {
+
+struct PlanArguments {
+  DeckArguments deck;
+  bool fill = false;
+  int threads = 1;
+};
+
+// A folder that a trial needs and nobody keeps.
+class Scratch {
+ public:
+  Scratch() {
+    std::string path = (std::filesystem::temp_directory_path() / "beadwork-plan-XXXXXX").string();
+    if (!::mkdtemp(path.data())) throw MachineFailure("error: cannot make a folder in " + path);
+    path_ = path;
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string duration(Real seconds) {
+  if (seconds < 120) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string counts(const Domain& domain) {
+  const auto megabytes = [](const Table& table) { return 1e-6 * static_cast<Real>(table.memory()); };
+  std::string text = fmt::format("\nFilled\n  {:28} {:>10}  {:8.2f} MB\n", "elements", domain.size(), megabytes(domain.elements()));
+  for (const auto& family : domain.families())
+    text += fmt::format("  {:28} {:>10}  {:8.2f} MB\n", "bonds of '" + family->name() + "'", family->size(), megabytes(family->rows()));
+  for (const auto& [name, set] : domain.sets()) text += fmt::format("  {:28} {:>10}\n", "set '" + name + "'", set.size());
+  return text;
+}
+
+std::string times(const Scene& scene, const Trial& trial, int threads) {
+  std::string text = fmt::format("\nTime\n  filling {}; time step {:.4g} s{}{}\n", duration(trial.fill_seconds), trial.time_step,
+                                 trial.limited_by.empty() ? "" : ", ", trial.limited_by);
+  text += fmt::format("  {:.3g} s per step ({} steps tried, {} thread{}, nothing recorded)\n", trial.seconds_per_step, trial.steps, threads,
+                      threads == 1 ? "" : "s");
+  Real total = 0;
+  for (const Stage& stage : scene.stages) {
+    const auto steps = steps_of(stage, trial.time_step);
+    if (!steps) {
+      text += fmt::format("  stage '{}': its conditions alone tell when it ends\n", stage.name);
+      continue;
+    }
+    total += *steps * trial.seconds_per_step;
+    text += fmt::format("  stage '{}': {:.0f} steps at most, about {}\n", stage.name, *steps, duration(*steps * trial.seconds_per_step));
+  }
+  if (scene.stages.size() > 1) text += fmt::format("  together about {}\n", duration(total));
+  return text;
+}
+
+int plan(const PlanArguments& arguments) {
+  const Loaded loaded = load_scene(arguments.deck);
+  Scene& scene = *loaded.scene;
+  std::printf("%s: scene '%s'\n\n%s", arguments.deck.path.c_str(), scene.name.c_str(), plan_text(scene).c_str());
+  if (!arguments.fill) {
+    std::printf("\nWith --fill: numbers of elements and bonds, megabytes, time step, steps and wall time\n");
+    return 0;
+  }
+  std::fflush(stdout);
+  const Scratch scratch;
+  RunFolder folder = RunFolder::fresh(scratch.path() / "run", false);
+  RunOptions options;
+  options.threads = arguments.threads;
+  options.warn = [](const std::string& warning) { std::fprintf(stderr, "warning: %s\n", warning.c_str()); };
+  Run run(scene, loaded.catalogue, folder, options);
+  const Trial trial = run.trial(2);
+  std::printf("%s%s", counts(*scene.domain).c_str(), times(scene, trial, arguments.threads).c_str());
+  return 0;
+}
+
+// The time at which what is driven has gone that far: it never turns back before, so bisection finds it.
+std::optional<Real> time_of_displacement(const std::vector<Constraint>& constraints, Real wanted, Real time_step) {
+  Real late = time_step;
+  while (driven_displacement(constraints, "", late) < wanted) {
+    late *= 2;
+    if (late > 1e12 * time_step) return std::nullopt;
+  }
+  Real early = 0;
+  for (int halving = 0; halving < 100; ++halving) {
+    const Real middle = 0.5 * (early + late);
+    (driven_displacement(constraints, "", middle) < wanted ? early : late) = middle;
+  }
+  return late;
+}
+
+}  // namespace
+
+std::optional<Real> steps_of(const Stage& stage, Real time_step) {
+  std::optional<Real> fewest;
+  const auto note = [&](Real steps) { fewest = std::min(fewest.value_or(steps), steps); };
+  if (stage.until->steps()) note(static_cast<Real>(*stage.until->steps()));
+  if (!(time_step > 0)) return fewest;
+  if (stage.until->time()) note(std::ceil(*stage.until->time() / time_step));
+  if (stage.until->displacement()) {
+    std::vector<Constraint> constraints;
+    for (const Load* load : stage.loads)
+      for (Constraint& c : load->constraints()) constraints.push_back(std::move(c));
+    if (const auto time = time_of_displacement(constraints, *stage.until->displacement(), time_step)) note(std::ceil(*time / time_step));
+  }
+  return fewest;
+}
+
+void add_plan(CLI::App& app, Chosen& chosen) {
+  CLI::App* verb = app.add_subcommand("plan", "Says what a deck will do: phases, fields, memory, steps");
+  verb->footer("Example: beadwork plan xml-cases/dcb/quick.xml --fill");
+  auto arguments = std::make_shared<PlanArguments>();
+  arguments->deck.add_to(*verb);
+  verb->add_flag("--fill", arguments->fill, "Makes the elements and bonds and tries some steps, for numbers, megabytes and times");
+  verb->add_option("--threads", arguments->threads, "Number of threads for the trial")->check(CLI::Range(1, 1024))->capture_default_str();
+  verb->callback([&chosen, arguments] { chosen = [arguments] { return plan(*arguments); }; });
+}
+
+}  // namespace beadwork
