@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""Who includes whom: every part of the program includes only the parts that stand below it."""
+import re
+import sys
+from pathlib import Path
+
+PLUGIN_BASE = {"base", "deck", "domain", "mechanics", "plugin"}
+ALLOWED = {
+    "base": set(),
+    "deck": {"base"},
+    "mechanics": {"base"},
+    "domain": {"base"},
+    "io": {"base", "domain"},
+    "packing": {"base", "domain"},
+    "statics": {"base", "domain", "mechanics"},
+    "plugin": {"base", "deck", "domain", "mechanics"},
+    "loop": {"base", "deck", "domain", "mechanics", "plugin", "io", "packing"},
+    "workbench": {"base", "deck", "domain", "mechanics", "plugin", "loop", "io", "packing", "statics"},
+    "plugins/fill": PLUGIN_BASE | {"packing", "io"},
+    "plugins/move": PLUGIN_BASE | {"statics"},
+    "plugins/watch": PLUGIN_BASE | {"io"},
+}
+# Each of these libraries is known to one part only.
+OWNERS = {"tinyxml2.h": "deck", "muParser.h": "deck", "hdf5.h": "io", "png.h": "io", "boost/dll/": "plugin",
+          "udunits2.h": "base", "CLI/": "workbench", "spdlog/": "workbench"}
+
+
+def part_of(path):
+    """core/deck/deck.hpp -> deck; plugins/bond/spring.cpp -> plugins/bond; workbench/report/x.cpp -> workbench."""
+    pieces = path.split("/")
+    if pieces[0] == "core":
+        return pieces[1] if len(pieces) > 2 else "base"  # core/version.hpp
+    return "/".join(pieces[:2]) if pieces[0] == "plugins" else pieces[0]
+
+
+def objection(part, included):
+    if included.startswith(("core/", "plugins/", "workbench/", "tests/")):
+        there = part_of(included)
+        if there == part or there in ALLOWED.get(part, PLUGIN_BASE):
+            return None
+        return f"{part} may not include {there}"
+    for library, owner in OWNERS.items():
+        if included.startswith(library) and owner != part:
+            return f"only {owner} includes {library}"
+    return None
+
+
+def main():
+    root = Path(sys.argv[1])
+    wrong = []
+    files = [f for top in ("core", "plugins", "workbench") for f in sorted((root / top).rglob("*")) if f.suffix in (".hpp", ".cpp")]
+    for file in files:
+        name = str(file.relative_to(root))
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            found = re.match(r'\s*#\s*include\s*[<"]([^>"]+)', line)
+            why = found and objection(part_of(name), found.group(1))
+            if why:
+                wrong.append(f"{name}:{number}: {line.strip()}: {why}")
+    print("\n".join(wrong) or f"{len(files)} files include in the right direction")
+    return 1 if wrong else 0
+
+
+sys.exit(main())

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# The installed package, moved elsewhere, is all that a plugin of one's own needs; and what is wrong with such a library,
+# or goes wrong in it, is told by name.   Usage: installed_package.sh SOURCE_FOLDER BUILD_FOLDER CXX_COMPILER
+set -euo pipefail
+source=$1 build=$2 compiler=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+beadwork=$work/moved/bin/beadwork
+
+fail() {
+  echo "FAILED: $1"
+  [ ! -f "$work/output" ] || cat "$work/output"
+  exit 1
+}
+# expect CODE TEXT... -- COMMAND...: the command ends with that exit code, and its output has each of the texts.
+expect() {
+  local code=$1 got=0 texts=()
+  shift
+  while [ "$1" != -- ]; do texts+=("$1"); shift; done
+  shift
+  "$@" >"$work/output" 2>&1 || got=$?
+  [ "$got" = "$code" ] || fail "exit code $got, not $code: $*"
+  for text in "${texts[@]}"; do grep -qF -- "$text" "$work/output" || fail "no \"$text\" in the output of: $*"; done
+}
+build_project() {
+  expect 0 -- cmake -S "$1" -B "$2" -DCMAKE_PREFIX_PATH="$work/moved" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Debug
+  expect 0 -- cmake --build "$2"
+}
+
+echo "install, and move the folder"
+expect 0 -- cmake --install "$build" --prefix "$work/installed"
+mv "$work/installed" "$work/moved"
+expect 0 cohesive-beam verlet -- "$beadwork" describe
+for file in share/beadwork/beadwork.xsd share/beadwork/deck.md include/beadwork/core/version.hpp; do
+  [ -f "$work/moved/$file" ] || fail "$file is not installed"
+done
+
+echo "build the plugin template against it, and run its deck"
+build_project "$source/tools/plugin-template" "$work/template"
+ropes=$work/template/ropes.so
+deck=$source/tools/plugin-template/three-balls.xml
+expect 0 stiffness stretch -- "$beadwork" describe rope --plugins "$ropes"
+expect 0 "no errors" -- "$beadwork" check "$deck" --plugins "$ropes"
+expect 0 -- "$beadwork" run "$deck" --plugins "$ropes" --out "$work/out" --threads 1
+# step, time, displacement, force, reference: two ropes in series, within 2 percent at the end of the slow pull
+tail -n 1 "$work/out/curves/force.csv" | awk -F, '{ if ($5 <= 0 || ($4 / $5 - 1) ^ 2 > 0.02 ^ 2) { print "force " $4 ", expected " $5; exit 1 } }' ||
+  fail "the ropes pull with another force than k/2 times the displacement"
+expect 2 "no <rope> in <bond>" -- "$beadwork" check "$deck"
+
+echo "a library for another kernel is refused, with both stamps"
+build_project "$source/tests/architecture/installed_package" "$work/others"
+expect 4 "library: beadwork 0.0.1, another compiler" "program: beadwork " -- "$beadwork" check "$deck" --plugins "$work/others/foreign.so"
+
+echo "a plugin in two libraries is refused, naming both"
+cp "$ropes" "$work/ropes-again.so"
+expect 4 "ropes.so" "ropes-again.so" "<bond> <rope>" -- "$beadwork" check "$deck" --plugins "$ropes" --plugins "$work/ropes-again.so"
+
+echo "a plugin that throws in the middle of a run is named, with the step"
+expect 3 "step 40" "watch.tripwire" "the wire was touched" -- "$beadwork" run "$source/tests/architecture/installed_package/tripwire.xml" \
+  --plugins "$work/others/tripwires.so" --out "$work/tripped" --threads 1
+grep -q '"status": "failed"' "$work/tripped/summary.json" || fail "summary.json does not say that the run failed"
+echo "passed"
