@@ -102,7 +102,7 @@ std::string columns_of(const Scene& scene, const Table& table, On on, const std:
   std::string text;
   for (const Column* column : table.columns()) {
     const Field& field = column->field();
-    text += fmt::format("  {:20} {:>3} bytes  {:8} {:7} {}\n", field.name, bytes(field.type), field.unit == "1" ? "" : field.unit,
+    text += fmt::format("  {:28} {:>3} bytes  {:8} {:7} {}\n", field.name, bytes(field.type), field.unit == "1" ? "" : field.unit,
                         column->kept() ? "saved" : "", users(scene, field.name, on, family));
   }
   return text;
@@ -112,24 +112,33 @@ std::string fields(const Scene& scene) {
   const Domain& domain = *scene.domain;
   std::string text = fmt::format("\nColumns on elements: {} bytes per element\n", row_bytes(domain.elements(), On::elements));
   text += columns_of(scene, domain.elements(), On::elements, "");
+  std::vector<std::pair<std::string, std::string>> alike;  // columns, and the families that have just these
   for (const auto& family : domain.families()) {
-    text += fmt::format("\nColumns on bonds of '{}': {} bytes per bond\n", family->name(), row_bytes(family->rows(), On::bonds));
-    text += columns_of(scene, family->rows(), On::bonds, family->name());
+    const std::string columns = fmt::format("{} bytes per bond\n{}", row_bytes(family->rows(), On::bonds),
+                                            columns_of(scene, family->rows(), On::bonds, family->name()));
+    const auto there = std::find_if(alike.begin(), alike.end(), [&](const auto& each) { return each.first == columns; });
+    if (there == alike.end())
+      alike.emplace_back(columns, family->name());
+    else
+      there->second += ", " + family->name();
   }
+  for (const auto& [columns, families] : alike) text += fmt::format("\nColumns on bonds of {}: {}", families, columns);
   if (!domain.scene().columns().empty()) text += "\nNumbers of the scene\n" + columns_of(scene, domain.scene(), On::scene, "");
   return text;
 }
 
 // What is offered and nobody reads: such columns do not exist.
-std::string declined(const Scene& scene) {
+std::vector<std::string> declined(const Scene& scene) {
   std::vector<std::string> all;
-  for (const auto& plugin : scene.plugins)
-    for (const FieldUse* use : plugin->uses()) {
-      if (use->verb() != Verb::writes || use->field().on != On::bonds) continue;
-      const BondTable* table = scene.domain->find_family(plugin->family());
-      if (table && !table->rows().find(use->field().name)) all.push_back(fmt::format("{} of {}", use->field().name, plugin->family()));
-    }
-  return join(all);
+  for (const auto& plugin : scene.plugins) {
+    const BondTable* table = scene.domain->find_family(plugin->family());
+    std::vector<std::string> names;
+    for (const FieldUse* use : plugin->uses())
+      if (use->verb() == Verb::writes && use->field().on == On::bonds && table && !table->rows().find(use->field().name))
+        names.push_back(use->field().name);
+    if (!names.empty()) all.push_back(fmt::format("columns that {} offers and nobody reads: {}", label(*plugin), join(names)));
+  }
+  return all;
 }
 
 std::string not_needed(const Scene& scene) {
@@ -144,8 +153,7 @@ std::string not_needed(const Scene& scene) {
   say(scene.section_readers.empty(), "forces and moments of single bonds: nobody reads them");
   say(scene.derived.empty(), "derived fields: nobody reads one");
   say(!fails, "judging bonds: no criterion of failure");
-  const std::string offers = declined(scene);
-  say(!offers.empty(), "columns that are offered and not read: " + offers);
+  for (const std::string& offer : declined(scene)) say(true, offer);
   return text;
 }
 

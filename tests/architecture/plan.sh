@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# beadwork plan foretells what a run then does.   Usage: plan.sh SOURCE_FOLDER BEADWORK
+set -euo pipefail
+source=$1 beadwork=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "FAILED: $1"; cat "$work/plan"; exit 1; }
+says() { grep -qF -- "$1" "$work/plan" || fail "the plan does not say: $1"; }
+value() { grep "\"$1\"" "$work/out/summary.json" | head -1 | sed 's/.*: //; s/,$//'; }
+
+echo "steps of a deck that ends at a displacement"
+sed 's|until="2000"|until="0.5 um"|' "$source/xml-cases/two-elements/quick.xml" >"$work/deck.xml"
+"$beadwork" plan "$work/deck.xml" --fill >"$work/plan"
+"$beadwork" run "$work/deck.xml" --out "$work/out" --quiet --threads 1
+says "stage 'run': $(value steps) steps at most"
+says "time step $(value time_step | awk '{ printf "%.4g", $1 }') s, limited by"
+says "bonds of 'beam'                       1"
+says "keeps: verlet; reads: cohesive-beam"
+says "columns that cohesive-beam beam offers and nobody reads: section-radius, bending-moment, twisting-moment"
+
+echo "no rotations where nobody turns"
+cat >"$work/deck.xml" <<'DECK'
+<scene>
+  <fill><lattice set="all" count="3 2 1" radius="1 mm" density="2000 kg/m^3"/></fill>
+  <bond><cohesive-contact name="glue" between="all all" strength="1 MPa" energy="100 J/m2" onset-ratio="0.1"/></bond>
+  <move><verlet until="1 us"/></move>
+</scene>
+DECK
+"$beadwork" plan "$work/deck.xml" >"$work/plan"
+says "rotations: nobody reads orientations or adds torques"
+says "forces and moments of single bonds: nobody reads them"
+! grep -q "^  spin" "$work/plan" || fail "there is a spin"
+
+echo "every shipped deck can be planned"
+for deck in "$source"/xml-cases/*/quick.xml; do "$beadwork" plan "$deck" >"$work/plan" || fail "$deck"; done
+echo "passed"
