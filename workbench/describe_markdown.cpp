@@ -59,6 +59,10 @@ than `<fill>`. Any value may hold `${...}`: a parameter, or an expression on qua
 
 What a plugin does with a field: it *reads* it; *adds* to it (a sum that is cleared at each evaluation); *offers* it (it exists
 only if somebody reads it); *fills* it once; *keeps* it (state, saved in checkpoints).
+
+Editors check and complete a deck whose root is `<scene xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
+xsi:noNamespaceSchemaLocation="path/to/beadwork.xsd">`; so does `xmllint --noout --schema beadwork.xsd deck.xml`. An included file
+is a `<scene>` too and is checked alike, unless it is included inside of a section. `beadwork check` finds what no schema can.
 )";
 
 }  // namespace

@@ -156,7 +156,7 @@ void Run::break_bonds() {
   const auto x = domain().elements().column("position").view<Vec3>();
   BreakLog& log = domain().breaks();
   for (auto& [failure, rows] : verdicts) {
-    const auto at = std::find_if(laws_.begin(), laws_.end(), [&](const auto& l) { return l.second->name() == failure->family(); });
+    const auto at = std::find_if(laws_.begin(), laws_.end(), [name = failure->family()](const auto& l) { return l.second->name() == name; });
     if (at == laws_.end()) continue;
     auto& [law, table] = *at;
     const auto family = static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin());

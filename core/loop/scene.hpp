@@ -53,7 +53,7 @@ class Scene {
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;
-  const std::set<const Plugin*>& readers_of(const Derived& derived) const { return derived_for.at(&derived); }
+  const std::set<const Plugin*>& readers_of(const Derived& provider) const { return derived_for.at(&provider); }
 };
 
 }  // namespace beadwork
