@@ -29,13 +29,13 @@ class View {
   explicit operator bool() const { return base_ != nullptr; }
 
   /// Component `c` of row `row`.
-  Component& at(Index row, int c) const {
+  [[gnu::always_inline]] Component& at(Index row, int c) const {
     return *reinterpret_cast<Component*>(base_ + static_cast<std::size_t>(row) * stride_ +
                                          static_cast<std::size_t>(c) * plane_);
   }
 
   /// The row's value; of a scalar column the number itself, to read or to set.
-  decltype(auto) operator[](Index row) const {
+  [[gnu::always_inline]] decltype(auto) operator[](Index row) const {
     if constexpr (scalar)
       return (at(row, 0));
     else if constexpr (std::is_same_v<Value, Vec3>)
@@ -44,7 +44,7 @@ class View {
       return Quat{at(row, 0), Vec3(at(row, 1), at(row, 2), at(row, 3))};
   }
 
-  void set(Index row, const Value& value) const {
+  [[gnu::always_inline]] void set(Index row, const Value& value) const {
     if constexpr (scalar) {
       at(row, 0) = value;
     } else if constexpr (std::is_same_v<Value, Vec3>) {
@@ -55,7 +55,7 @@ class View {
     }
   }
 
-  void add(Index row, const Value& value) const {
+  [[gnu::always_inline]] void add(Index row, const Value& value) const {
     if constexpr (scalar)
       at(row, 0) += value;
     else

@@ -9,6 +9,7 @@
 // `At` stands for the bonds at hand, one now and a pack of lanes later: at(column) loads their numbers, at.store(column,
 // value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T.
 
+#include <algorithm>
 #include <variant>
 #include <vector>
 
@@ -29,77 +30,107 @@ struct Pass {
   bool sections = false;
 };
 
-/// One bond.
+/// One bond. Columns of a bond table lie plane by plane, so a row's number stands at a fixed distance from the base.
 struct One {
   using Number = Real;
   Index row = 0;
   bool* flagged = nullptr;
 
-  Real operator()(const View<const Real>& column) const { return column[row]; }
-  Vec3 operator()(const View<const Vec3>& column) const { return column[row]; }
-  void store(const View<Real>& column, Real value) const { column[row] = value; }
+  [[gnu::always_inline]] Real operator()(const View<const Real>& column) const { return number(column.base()); }
+  [[gnu::always_inline]] Vec3 operator()(const View<const Vec3>& column) const {
+    const std::byte* base = column.base();
+    return {number(base), number(base + column.plane()), number(base + 2 * column.plane())};
+  }
+  [[gnu::always_inline]] void store(const View<Real>& column, Real value) const { column[row] = value; }
   void store(const View<Vec3>& column, const Vec3& value) const { column.set(row, value); }
-  void flag(bool mask) const { *flagged |= mask; }
+  [[gnu::always_inline]] void flag(bool mask) const { *flagged |= mask; }
+
+ private:
+  [[gnu::always_inline]] Real number(const std::byte* base) const { return reinterpret_cast<const Real*>(base)[row]; }
 };
 
-/// The columns of the elements that the loop reads and adds to.
-struct ElementViews {
-  View<const Vec3> position;
-  View<const Quat> orientation;
-  View<Vec3> force, torque;
-
-  static ElementViews of(Domain& domain) {
-    const auto vec3 = [&](const char* name) {
+/// The lines of the elements that the loop reads and adds to: position and orientation share a stride, force and torque
+/// another.
+class ElementLines {
+ public:
+  static ElementLines of(const Domain& domain) {
+    const auto base = [&](const char* name) {
       const Column* column = domain.elements().find(name);
-      return column ? column->view<Vec3>() : View<Vec3>{};
+      return column ? column->base() : nullptr;
     };
-    ElementViews views;
-    views.position = vec3("position");
-    if (const Column* column = domain.elements().find("orientation")) views.orientation = column->view<Quat>();
-    views.force = vec3("force");
-    views.torque = vec3("torque");
-    return views;
+    ElementLines lines;
+    lines.position_ = base("position");
+    lines.orientation_ = base("orientation");
+    lines.force_ = base("force");
+    lines.torque_ = base("torque");
+    lines.pose_ = domain.elements().column("position").stride();
+    if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
+    return lines;
   }
-};
 
-template <bool turns>
-Ends<Real> ends_of(const ElementViews& e, Index i, Index j) {
-  Ends<Real> ends;
-  ends.apart = e.position[j] - e.position[i];
-  if constexpr (turns) {
-    ends.q1 = e.orientation[i];
-    ends.q2 = e.orientation[j];
+  template <bool turns>
+  [[gnu::always_inline]] Ends<Real> ends(Index i, Index j) const {
+    const std::size_t at_i = static_cast<std::size_t>(i) * pose_;
+    const std::size_t at_j = static_cast<std::size_t>(j) * pose_;
+    const Real* x1 = reinterpret_cast<const Real*>(position_ + at_i);
+    const Real* x2 = reinterpret_cast<const Real*>(position_ + at_j);
+    Ends<Real> ends;
+    ends.apart = {x2[0] - x1[0], x2[1] - x1[1], x2[2] - x1[2]};
+    if constexpr (turns) {
+      const Real* q1 = reinterpret_cast<const Real*>(orientation_ + at_i);
+      const Real* q2 = reinterpret_cast<const Real*>(orientation_ + at_j);
+      ends.q1 = {q1[0], {q1[1], q1[2], q1[3]}};
+      ends.q2 = {q2[0], {q2[1], q2[2], q2[3]}};
+    }
+    return ends;
   }
-  return ends;
-}
+
+  /// Adds the wrench, or takes it off again (`sign` -1), at the rows of the force line of its two ends.
+  template <bool turns>
+  [[gnu::always_inline]] void add(Index i, Index k, const Wrench<Real>& w, Real sign = 1) const {
+    const std::size_t at_i = static_cast<std::size_t>(i) * load_;
+    const std::size_t at_k = static_cast<std::size_t>(k) * load_;
+    add_to(force_ + at_i, w.force, -sign);
+    add_to(force_ + at_k, w.force, sign);
+    if constexpr (turns) {
+      add_to(torque_ + at_i, w.torque1, sign);
+      add_to(torque_ + at_k, w.torque2, sign);
+    }
+  }
+
+  void clear(Index begin, Index end) const {
+    for (Index row = begin; row < end; ++row) {
+      const std::size_t at = static_cast<std::size_t>(row) * load_;
+      for (std::byte* base : {force_, torque_})
+        if (base) std::fill_n(reinterpret_cast<Real*>(base + at), 3, Real(0));
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] static void add_to(std::byte* base, const Vec3& v, Real sign) {
+    Real* sum = reinterpret_cast<Real*>(base);
+    sum[0] += sign * v[0];
+    sum[1] += sign * v[1];
+    sum[2] += sign * v[2];
+  }
+
+  std::byte *position_ = nullptr, *orientation_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
+  std::size_t pose_ = 0, load_ = 0;
+};
 
 namespace bond_loop {
 
-inline void clear_rows(const ElementViews& e, Index begin, Index end) {
-  for (Index row = begin; row < end; ++row) {
-    e.force.set(row, zero<Vec3>());
-    if (e.torque) e.torque.set(row, zero<Vec3>());
-  }
-}
-
 template <Pass pass, class Law>
-bool run_chunk(const Law& law, const BondTable& table, const ElementViews& elements, const Chunk& chunk) {
+bool run_chunk(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
   const auto first = table.first();
   const auto second = table.second();
   const auto target = table.target();
   const Law l = law;
-  const ElementViews e = elements;
+  const ElementLines e = elements;
   bool flagged = false;
   for (Index b = chunk.begin; b < chunk.live_end; ++b) {
     const Index i = first[b];
-    const Index k = target[b];
-    const Wrench<Real> w = l.template act<pass>(One{b, &flagged}, ends_of<Law::turns>(e, i, second[b]));
-    e.force.add(i, -w.force);
-    e.force.add(k, w.force);
-    if constexpr (Law::turns) {
-      e.torque.add(i, w.torque1);
-      e.torque.add(k, w.torque2);
-    }
+    e.add<Law::turns>(i, target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law::turns>(i, second[b])));
   }
   return flagged;
 }
@@ -107,15 +138,15 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementViews& eleme
 /// Runs the law over all live bonds; the chunks in which it flagged something, ascending.
 template <Pass pass, class Law>
 std::vector<Index> run(const Law& law, const BondTable& table, Domain& domain, bool clear) {
-  const ElementViews e = ElementViews::of(domain);
+  const ElementLines e = ElementLines::of(domain);
   const auto chunks = static_cast<Index>(table.chunks().size());
   const Index length = block_length(domain.size());
   std::vector<char> flagged(static_cast<std::size_t>(chunks), 0);
 #pragma omp parallel for schedule(static) if (chunks > 1)
   for (Index c = 0; c < chunks; ++c) {
     const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
-    if (clear) clear_rows(e, c * length, std::min((c + 1) * length, domain.size()));
-    clear_rows(e, chunk.halo_begin, chunk.halo_end);
+    if (clear) e.clear(c * length, std::min((c + 1) * length, domain.size()));
+    e.clear(chunk.halo_begin, chunk.halo_end);
     flagged[static_cast<std::size_t>(c)] = run_chunk<pass>(law, table, e, chunk);
   }
   std::vector<Index> list;
@@ -168,17 +199,11 @@ class BondLawOf : public BondLaw {
   void withdraw(Domain& domain, const BondTable& table, Index row) final {
     std::visit(
         [&]<class Law>(const Law& value) {
-          const auto e = ElementViews::of(domain);
+          const auto e = ElementLines::of(domain);
           const Index i = table.first()[row];
           const Index j = table.second()[row];
           bool ignored = false;
-          const Wrench<Real> w = value.template act<Pass{}>(One{row, &ignored}, ends_of<Law::turns>(e, i, j));
-          e.force.add(i, w.force);
-          e.force.add(j, -w.force);
-          if constexpr (Law::turns) {
-            e.torque.add(i, -w.torque1);
-            e.torque.add(j, -w.torque2);
-          }
+          e.add<Law::turns>(i, j, value.template act<Pass{}>(One{row, &ignored}, e.ends<Law::turns>(i, j)), -1);
         },
         law());
   }
@@ -216,8 +241,8 @@ class BondLawOf : public BondLaw {
   template <class Law>
   static Real stored_by(const Law& value, const Domain& domain, const BondTable& table, Index row) {
     bool ignored = false;
-    const auto e = ElementViews::of(const_cast<Domain&>(domain));  // read only
-    return value.stored(One{row, &ignored}, ends_of<Law::turns>(e, table.first()[row], table.second()[row]));
+    const auto e = ElementLines::of(domain);
+    return value.stored(One{row, &ignored}, e.template ends<Law::turns>(table.first()[row], table.second()[row]));
   }
   std::vector<BondEvent> events_;
 };

@@ -18,14 +18,14 @@ struct CohesiveBeamLaw {
   static constexpr bool turns = true;
 
   template <class At>
-  auto rest(const At& at) const {
+  [[gnu::always_inline]] auto rest(const At& at) const {
     using T = typename At::Number;
     const T b = at(bending);
     return BeamRest<T>{at(axis), at(length), at(axial), b, T(torsion_to_bending) * b};
   }
 
   template <Pass pass, class At, class T>
-  Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const Wrench<T> wrench = beam_wrench<T>(rest(at), ends.apart, ends.q1, ends.q2);
     if constexpr (pass.sections) {
       const BeamSection<T> section = beam_section<T>(ends.apart, wrench);
@@ -72,9 +72,9 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw> {
       const Real r = *radius_ratio * 0.5 * (radius[i] + radius[j]);
       const Vec3 apart = position[j] - position[i];
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
-        throw DeckFailure(fmt::format("{}: error: elements {} and {} of family '{}' stand at one place: a beam between them has no "
-                                      "direction; move one of them or leave it out of the sets",
-                                      at().where(), i, j, *name));
+        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a beam between them has no direction; move one "
+                                 "of them or leave it out of the sets",
+                                 i, j, *name));
       const BeamRest<Real> rest = round_beam(apart, *young, *poisson, r);
       axis.set(row, rest.axis);
       length[row] = rest.length;

@@ -25,7 +25,7 @@ struct CohesiveColumns {
   CohesiveLaws<Real> laws;
 
   template <class At>
-  auto rest(const At& at) const {
+  [[gnu::always_inline]] auto rest(const At& at) const {
     return CohesiveRest<typename At::Number>{at(length), at(area)};
   }
 };
@@ -35,7 +35,7 @@ struct CohesiveOpening : CohesiveColumns {
   static constexpr bool turns = false;
 
   template <Pass pass, class At, class T>
-  Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const T history = at(largest_opening);
     const CohesivePull<T> pull = cohesive_pull<T>(laws.normal, rest(at), ends.apart, history);
     if constexpr (pass.settle) {
@@ -85,7 +85,7 @@ struct CohesiveSliding : CohesiveColumns {
   }
 
   template <Pass pass, class At, class T>
-  Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const Openings<T> before = history(at);
     const auto now = cohesive_wrench<modes, T>(laws, rest(at), arms(at), ends.apart, ends.q1, ends.q2, before);
     if constexpr (pass.settle) {
@@ -216,8 +216,9 @@ class CohesiveContact final
       const Index j = table.second()[row];
       const Vec3 apart = position[j] - position[i];
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
-        throw DeckFailure(fmt::format("{}: error: elements {} and {} of family '{}' stand at one place: a contact between them has no normal",
-                                      at().where(), i, j, *name));
+        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a contact between them has no normal; move one "
+                                 "of them or leave it out of the sets",
+                                 i, j, *name));
       length[row] = apart.norm();
       area[row] = *area_radius == "mean" ? contact_area(radius[i], radius[j]) : contact_area_on_large(std::min(radius[i], radius[j]));
       sum += area[row];

@@ -44,17 +44,18 @@ class Verlet final : public Mover {
     position_ = w.domain().elements().column("position").view<Vec3>();
     grips_ = Grips(w.domain(), w.constraints());
     if (!resumed) {
-      step_ = step_limit(w, mass.view(), inertia.view());
+      step_ = largest_step(w);
       const Real largest = step_.time_step;
       w.moment().time_step = fixed_step.given() ? *fixed_step : *safety * largest;
       if (!std::isfinite(w.moment().time_step))
-        throw DeckFailure(fmt::format("{}: error: nothing in this scene limits the time step: give 'time-step'", at().where()));
+        refuse(at(), "nothing in this scene limits the time step: give 'time-step'");
       w.say(fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step, w.moment().time_step / largest,
                         step_.by));
       stable_ = largest;
       w.evaluate(false);
+      grips_.seize(w, places(), turns(), *beta);
       damp(w);
-      grips_.react(w, mass.view(), force.view(), *beta);
+      grips_.react(w, places(), turns(), *beta);
     }
   }
 
@@ -68,9 +69,9 @@ class Verlet final : public Mover {
     ++now.step;
     w.evaluate(true);
     damp(w);
-    grips_.react(w, mass.view(), force.view(), *beta);
+    grips_.react(w, places(), turns(), *beta);
     correct_all(w);
-    grips_.after_correct(w, velocity.view(), mass.view());
+    grips_.after_correct(w, places(), turns());
     if (now.step % 100 == 0) check_speed(w);
   }
 
@@ -85,17 +86,27 @@ class Verlet final : public Mover {
   }
 
  private:
+  Gripped places() const { return {velocity.view(), force.view(), mass.view()}; }
+  Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }
+
+  // Local damping makes a force that slows down larger by its share, and so the stiffness that limits the step.
+  StepLimit largest_step(Workings& w) const {
+    StepLimit limit = step_limit(w, mass.view(), inertia.view());
+    limit.time_step /= std::sqrt(1 + *local_damping);
+    return limit;
+  }
+
   // Places and orientations at the next time; velocities half-way there.   Eq (1)
   void advance_all(Real dt) {
     const Real half = 0.5 * *beta * dt;
 #pragma omp parallel for schedule(static) if (count_ > 4096)
     for (Index i = 0; i < count_; ++i) {
-      const Vec3 a = force[i] / mass[i];
+      const Vec3 a = force[i] * (1 / mass[i]);
       const Vec3 v = velocity[i];
       position_.set(i, advance<Real>(position_[i], v, a, dt));
       velocity.set(i, v + half * a);
       if (!spin) continue;
-      const Vec3 alpha = torque[i] / inertia[i];
+      const Vec3 alpha = torque[i] * (1 / inertia[i]);
       const Vec3 omega = spin[i];
       orientation.set(i, turn<Real>(orientation[i], omega, alpha, dt));
       spin.set(i, omega + half * alpha);
@@ -110,11 +121,11 @@ class Verlet final : public Mover {
     for (Index i = 0; i < count_; ++i) {
       const Vec3 f = force[i];
       Real all = f.x() + f.y() + f.z();
-      velocity.set(i, velocity[i] + half * (f / mass[i]));
+      velocity.set(i, velocity[i] + (half / mass[i]) * f);
       if (spin) {
         const Vec3 t = torque[i];
         all += t.x() + t.y() + t.z();
-        spin.set(i, spin[i] + half * (t / inertia[i]));
+        spin.set(i, spin[i] + (half / inertia[i]) * t);
       }
       broken = broken || !std::isfinite(all);
     }
@@ -130,7 +141,7 @@ class Verlet final : public Mover {
     const auto damp_one = [&](const View<Vec3>& load, const View<Vec3>& rate, Real inertia_of, Index i, int first_axis) {
       Real taken = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        if (first_axis == 0 && grips_.holds(i, axis)) continue;
+        if (grips_.holds(i, first_axis + axis)) continue;
         Real& f = load.at(i, axis);
         const Real v = rate.at(i, axis);
         const Real d = v == 0 ? 0 : -*local_damping * std::abs(f) * (v > 0 ? 1 : -1);
@@ -171,7 +182,7 @@ class Verlet final : public Mover {
   }
 
   std::string cause(Workings& w) const {
-    const Real ratio = w.moment().time_step / (stable_ > 0 ? stable_ : step_limit(w, mass.view(), inertia.view()).time_step);
+    const Real ratio = w.moment().time_step / (stable_ > 0 ? stable_ : largest_step(w).time_step);
     if (ratio > 1)
       return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
     return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast or a stiffness too high", ratio);
