@@ -112,7 +112,7 @@ enum class Grip {
 struct Constraint {
   std::string by;   ///< id of the load
   std::string set;
-  int axis = 0;     ///< 0 x, 1 y, 2 z
+  int axis = 0;     ///< 0 x, 1 y, 2 z; 3 4 5 the turns about them, which can be held only
   Grip grip = Grip::each;
   bool driven = false;  ///< it moves (pull), as against holding still
   std::function<PrescribedMotion(Real)> motion;  ///< displacement since then, velocity, acceleration, of the time since the start of the stage

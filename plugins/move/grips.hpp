@@ -1,11 +1,18 @@
 #pragma once
 // Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), each element by itself or their mean.
+// Axes 0..2 are places, 3..5 are turns: those are held still, which spins and torques alone see to.
 
 #include <vector>
 
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {
+
+/// What grips take hold of along one kind of axis: rates, the loads that change them, and the inertia in between.
+struct Gripped {
+  View<Vec3> rate, load;     ///< velocity and force, or spin and torque; null where nothing turns
+  View<const Real> inertia;  ///< mass, or moment of inertia
+};
 
 class Grips {
  public:
@@ -18,19 +25,31 @@ class Grips {
     }
   }
 
+  /// Rates that jump at the start of a stage: an impulse of the grip, whose work is the kinetic energy it brings.
+  void seize(Workings& w, const Gripped& places, const Gripped& turns, Real beta) {
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      Constraint& c = w.constraints()[k];
+      const Gripped& of = c.axis < 3 ? places : turns;
+      if (!of.rate) continue;
+      const Real before = kinetic(*sets_[k], of, c.axis % 3);
+      set_rate(c, *sets_[k], c.motion(w.moment().time - w.moment().stage_start).velocity, of);
+      c.work += (kinetic(*sets_[k], of, c.axis % 3) - before) / beta;
+    }
+  }
+
   bool holds(Index row, int axis) const { return held_[static_cast<std::size_t>(row)] >> axis & 1; }
 
   /// Notes where what is gripped stands; to be called before places advance.
   void before_advance(Workings& w, const View<Vec3>& position) {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
-      if (c.grip == Grip::mean) means_[k] = mean(*sets_[k], [&](Index row) { return position.at(row, c.axis); });
+      if (c.axis < 3 && c.grip == Grip::mean) means_[k] = mean(*sets_[k], [&](Index row) { return position.at(row, c.axis); });
     }
     if (places_.empty())
       for (const Set* set : sets_) places_.emplace_back(set->size());
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
-      if (c.grip != Grip::each) continue;
+      if (c.axis >= 3 || c.grip != Grip::each) continue;
       for (std::size_t n = 0; n < sets_[k]->size(); ++n) places_[k][n] = position.at((*sets_[k])[n], c.axis);
     }
   }
@@ -40,6 +59,7 @@ class Grips {
     const Moment& now = w.moment();
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       Constraint& c = w.constraints()[k];
+      if (c.axis >= 3) continue;
       const Real moved = travel(c, now, now.time + now.time_step) - travel(c, now, now.time);
       c.work += 0.5 * c.reaction * moved;
       if (c.grip == Grip::each) {
@@ -53,23 +73,26 @@ class Grips {
 
   /// Replaces the force on what is gripped by the one that gives the prescribed acceleration; the difference is the
   /// reaction, and does its half of the work of the step that has just been made.
-  void react(Workings& w, const View<const Real>& mass, const View<Vec3>& force, Real beta) {
+  void react(Workings& w, const Gripped& places, const Gripped& turns, Real beta) {
     const Moment& now = w.moment();
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       Constraint& c = w.constraints()[k];
+      const Gripped& of = c.axis < 3 ? places : turns;
+      if (!of.load) continue;
       const Set& set = *sets_[k];
+      const int axis = c.axis % 3;
       const Real a = c.motion(now.time - now.stage_start).acceleration / beta;
       Real sum = 0;
       if (c.grip == Grip::each) {
         for (const Index row : set) {
-          Real& f = force.at(row, c.axis);
-          sum += mass[row] * a - f;
-          f = mass[row] * a;
+          Real& f = of.load.at(row, axis);
+          sum += of.inertia[row] * a - f;
+          f = of.inertia[row] * a;
         }
       } else {
-        const Real free = mean(set, [&](Index row) { return force.at(row, c.axis) / mass[row]; });
-        const Real more = (a - free) / mean(set, [&](Index row) { return 1 / mass[row]; });
-        for (const Index row : set) force.at(row, c.axis) += more;
+        const Real free = mean(set, [&](Index row) { return of.load.at(row, axis) / of.inertia[row]; });
+        const Real more = (a - free) / mean(set, [&](Index row) { return 1 / of.inertia[row]; });
+        for (const Index row : set) of.load.at(row, axis) += more;
         sum = more * static_cast<Real>(set.size());
       }
       c.reaction = sum;
@@ -78,22 +101,32 @@ class Grips {
     }
   }
 
-  void after_correct(Workings& w, const View<Vec3>& velocity, const View<const Real>& mass) {
+  void after_correct(Workings& w, const Gripped& places, const Gripped& turns) {
     const Moment& now = w.moment();
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
-      const Real v = c.motion(now.time - now.stage_start).velocity;
-      if (c.grip == Grip::each) {
-        for (const Index row : *sets_[k]) velocity.at(row, c.axis) = v;
-        continue;
-      }
-      const Real reached = mean(*sets_[k], [&](Index row) { return velocity.at(row, c.axis); });
-      shift(*sets_[k], v - reached, velocity, c.axis, mass);
+      const Gripped& of = c.axis < 3 ? places : turns;
+      if (of.rate) set_rate(c, *sets_[k], c.motion(now.time - now.stage_start).velocity, of);
     }
   }
 
  private:
   static Real travel(const Constraint& c, const Moment& now, Real time) { return c.motion(time - now.stage_start).displacement; }
+
+  static void set_rate(const Constraint& c, const Set& set, Real v, const Gripped& of) {
+    const int axis = c.axis % 3;
+    if (c.grip == Grip::each) {
+      for (const Index row : set) of.rate.at(row, axis) = v;
+      return;
+    }
+    shift(set, v - mean(set, [&](Index row) { return of.rate.at(row, axis); }), of.rate, axis, of.inertia);
+  }
+
+  static Real kinetic(const Set& set, const Gripped& of, int axis) {
+    Real twice = 0;
+    for (const Index row : set) twice += of.inertia[row] * of.rate.at(row, axis) * of.rate.at(row, axis);
+    return 0.5 * twice;
+  }
 
   template <class F>
   static Real mean(const Set& set, const F& f) {
