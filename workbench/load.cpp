@@ -15,6 +15,11 @@ void DeckArguments::add_to(CLI::App& verb) {
   verb.add_option("--plugins", libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
 }
 
+std::string shown(const Fault& fault) {
+  const std::string text = fault.what();
+  return text.find("error: ") == std::string::npos ? "error: " + text : text;
+}
+
 Loaded load_scene(const DeckArguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& setting : arguments.settings) {
@@ -30,7 +35,12 @@ Loaded load_scene(const DeckArguments& arguments) {
   std::vector<std::filesystem::path> extra;
   if (const Attribute* plugins = loaded.deck->root->find("plugins"))
     if (const auto words = read_words(*plugins, loaded.deck->scope, complaints))
-      for (const std::string& word : *words) extra.push_back(std::filesystem::path(arguments.path).parent_path() / word);
+      for (const std::string& word : *words) {
+        extra.push_back(std::filesystem::path(arguments.path).parent_path() / word);
+        if (!std::filesystem::exists(extra.back()))
+          throw LibraryFailure(fmt::format("{}: error: no plugin library \"{}\": there is no file {}", plugins->value_at.where(), word,
+                                           extra.back().string()));
+      }
   extra.insert(extra.end(), arguments.libraries.begin(), arguments.libraries.end());
   loaded.catalogue = Catalogue::open(extra);
   loaded.scene = Scene::assemble(*loaded.deck, loaded.catalogue, complaints);

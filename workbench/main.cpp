@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   try {
     return chosen();
   } catch (const Fault& fault) {
-    std::fprintf(stderr, "%s\n", fault.what());
+    std::fprintf(stderr, "%s\n", shown(fault).c_str());
     return static_cast<int>(fault.code());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "error: out of memory\n");

@@ -94,7 +94,7 @@ int run(const RunArguments& arguments) {
     job.all();
   } catch (const Fault& fault) {
     progress.end();
-    log->error(fault.what());
+    log->error("{}", fault.code() == ExitCode::interrupted ? fault.what() : shown(fault));
     return static_cast<int>(fault.code());
   } catch (const std::exception& error) {
     progress.end();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/failure.hpp"
 #include "core/loop/scene.hpp"
 
 namespace beadwork {
@@ -37,6 +38,9 @@ struct Loaded {
   Catalogue catalogue;
   std::unique_ptr<Scene> scene;
 };
+
+/// What went wrong as the terminal shows it: with "error:", which complaints about a deck bring along.
+std::string shown(const Fault& fault);
 
 /// Throws DeckFailure with all complaints, or LibraryFailure. Warnings go to stderr.
 Loaded load_scene(const DeckArguments& arguments);

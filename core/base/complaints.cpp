@@ -101,4 +101,10 @@ void Complaints::throw_if_any() const {
   if (errors_ > 0) throw DeckFailure(text());
 }
 
+void refuse(const Location& at, std::string message) {
+  Complaints one;
+  one.error(at, std::move(message));
+  throw DeckFailure(one.text());
+}
+
 }  // namespace beadwork

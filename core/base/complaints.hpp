@@ -41,4 +41,7 @@ class Complaints {
   int errors_ = 0, warnings_ = 0;
 };
 
+/// Throws DeckFailure with this one complaint, place and source line shown as always: for what only a run finds out.
+[[noreturn]] void refuse(const Location& at, std::string message);
+
 }  // namespace beadwork

@@ -18,6 +18,10 @@ std::optional<Kind> kind_of(const std::string& tag) {
   return std::nullopt;
 }
 
+bool holds(const std::vector<Mover*>& movers, const Mover* mover) {
+  return std::find(movers.begin(), movers.end(), mover) != movers.end();
+}
+
 std::vector<std::string> section_names(bool inside_stage) {
   std::vector<std::string> names;
   for (const Kind kind : all_kinds)
@@ -58,6 +62,8 @@ void Assembly::run() {
   merge_common_into_stages();
   check_names();
   for (Stage& stage : scene_.stages) check_stage(stage);
+  if (std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
+    complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
   deck_.scope.complain_about_unused(complaints_);
   if (complaints_.errors() == 0) lay_out_fields();
 }
@@ -109,7 +115,9 @@ void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain,
       }
       node.attributes.push_back({"name", made.name});
       if (const Attribute* until = child->find("until")) node.attributes.push_back({"until", until->value});
-      until_nodes_[made.name] = child.get();
+      const auto [there, fresh] = until_nodes_.try_emplace(made.name, child.get());
+      if (!fresh)
+        complaints_.error(child->at, fmt::format("stage '{}' exists already, made at {}", made.name, there->second->at.where()));
       read_sections(*child, made, node, true);
     } else {
       const auto known = section_names(inside_stage);
@@ -197,6 +205,9 @@ void Assembly::compile_until(Stage& stage) {
   const auto node = until_nodes_.find(stage.name);
   const Attribute* own = node == until_nodes_.end() ? nullptr : node->second->find("until");
   if (own) {
+    const ParamBase& second = stage.mover().until;
+    if (second.in_deck() && !holds(common_.movers, &stage.mover()))
+      complaints_.error(second.at(), fmt::format("'until' of stage '{}' is given twice, also at {}", stage.name, own->value_at.where()));
     const auto read = read_text(*own, deck_.scope, complaints_);
     if (!read) return;
     text = *read;

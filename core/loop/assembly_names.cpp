@@ -13,9 +13,10 @@ std::set<std::string> Assembly::made_names(Role role, const std::string& what) {
       if (p->info().role != role) continue;
       for (const std::string& name : p->names()) {
         names.insert(name);
-        // Filling plugins that work on one set in turn all name it; a family has one law.
+        // Filling plugins that work on one set in turn all name it; a family has one law, a region its own set.
+        const auto* filler = dynamic_cast<const Filler*>(plugin.get());
         const auto [there, fresh] = made.try_emplace(name, p->at());
-        if (!fresh && role == Role::makes_family)
+        if (!fresh && (role == Role::makes_family || (filler && filler->after_filling())))
           complaints_.error(p->at(), fmt::format("{} '{}' exists already, made at {}", what, name, there->second.where()));
       }
     }
@@ -34,9 +35,42 @@ void Assembly::check_uses_of(Role role, const std::string& what, const std::set<
     }
 }
 
+// A set by region is found once, in the deck's order: of another region only behind it.
+void Assembly::check_order_of_regions() {
+  std::map<std::string, const Filler*> later;
+  for (const Filler* filler : scene_.fillers)
+    if (filler->after_filling())
+      for (const ParamBase* p : filler->params())
+        if (p->info().role == Role::makes_set)
+          for (const std::string& name : p->names()) later.emplace(name, filler);
+  for (const Filler* filler : scene_.fillers) {
+    for (const ParamBase* p : filler->params())
+      for (const std::string& name : p->names())
+        if (p->info().role == Role::set && later.contains(name))
+          complaints_.error(p->at(), fmt::format("set '{}' is made only later, at {}: put that in front", name, later.at(name)->at().where()));
+    std::erase_if(later, [&](const auto& made) { return made.second == filler; });
+  }
+}
+
+// Two watchers of one name would write over each other's curve.
+void Assembly::check_curve_names(const Stage& stage) {
+  std::map<std::string, const Watcher*> taken;
+  for (const Watcher* watcher : stage.watchers) {
+    const ParamBase* name = watcher->param("name");
+    if (!name || !name->given()) continue;
+    const auto [there, fresh] = taken.try_emplace(name->text(), watcher);
+    if (!fresh && there->second != watcher)
+      complaints_.error(name->in_deck() ? name->at() : watcher->at(),
+                        fmt::format("a curve '{}' exists already, made at {}: give this one another 'name'", name->text(),
+                                    there->second->at().where()));
+  }
+}
+
 void Assembly::check_names() {
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));
+  check_order_of_regions();
+  for (const Stage& stage : scene_.stages) check_curve_names(stage);
 }
 
 }  // namespace beadwork

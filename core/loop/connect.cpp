@@ -41,9 +41,9 @@ std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Dom
       pairs.emplace_back(static_cast<Index>(i), static_cast<Index>(j));
   }
   if (pairs.empty())
-    throw DeckFailure(fmt::format("{}: error: family '{}' has no bond: no element of '{}' is within {} of the sum of radii of one of '{}'; "
-                                  "a larger 'gap' or another set may help",
-                                  law.at().where(), *law.name, (*law.between)[0], law.gap.value(), (*law.between)[1]));
+    refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = {} of the sum of "
+                                 "their radii between them; a larger 'gap' or another set may help",
+                                 *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
   return pairs;
 }
 

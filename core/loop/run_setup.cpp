@@ -24,7 +24,7 @@ void Run::fill() {
   for (Filler* filler : scene_.fillers)
     if (!filler->after_filling()) filler->fill(domain(), job);
   if (domain().size() == 0)
-    throw DeckFailure(fmt::format("{}: error: the scene has no elements: <fill> needs a plugin that makes some", scene_.deck_path));
+    throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene_.deck_path));
 
   std::vector<Vec3> position(static_cast<std::size_t>(domain().size()));
   const auto x = domain().elements().column("position").view<Vec3>();
@@ -83,8 +83,9 @@ void Run::check_constraints(const Stage& stage, std::span<const Constraint> cons
       const auto [there, fresh] = taken.try_emplace({row, c.axis}, &c);
       if (fresh) continue;
       const auto load = std::find_if(stage.loads.begin(), stage.loads.end(), [&](const Load* l) { return l->id() == c.by; });
-      throw DeckFailure(fmt::format("{}: error: axis {} of an element of set '{}' is already prescribed on set '{}'",
-                                    (*load)->at().where(), "xyz"[c.axis], c.set, there->second->set));
+      static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
+      refuse((*load)->at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}", names[c.axis], c.set,
+                                        there->second->set, there->second->by));
     }
   }
 }

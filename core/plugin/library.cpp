@@ -1,5 +1,7 @@
 #include "core/plugin/library.hpp"
 
+#include <dlfcn.h>
+
 #include <boost/dll/shared_library.hpp>
 
 #include "core/base/failure.hpp"
@@ -7,12 +9,27 @@
 
 namespace beadwork {
 
+namespace {
+
+// What the loader says is lost on the way through Boost.DLL; it is asked once more.
+std::string why_not(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return "there is no such file";
+  dlerror();
+  dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const char* said = dlerror();
+  const std::string reason = said ? said : "it cannot be loaded";
+  return reason.starts_with(path.string() + ": ") ? reason.substr(path.string().size() + 2) : reason;
+}
+
+}  // namespace
+
 Library open_library(const std::filesystem::path& path) {
   boost::dll::fs::error_code error;
   auto* library = new boost::dll::shared_library;  // never unloaded, on purpose
   library->load(path,
                 boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, error);
-  if (error) throw LibraryFailure(fmt::format("cannot open plugin library {}: {}", path.string(), error.message()));
+  if (error) throw LibraryFailure(fmt::format("cannot open plugin library {}: {}", path.string(), why_not(path)));
   if (!library->has(stamp_entry) || !library->has(list_entry))
     throw LibraryFailure(fmt::format("{} is no plugin library: it lacks {} or {} (build it with beadwork_add_plugins)",
                                      path.string(), stamp_entry, list_entry));

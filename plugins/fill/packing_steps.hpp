@@ -38,9 +38,9 @@ void guarded(const Plugin& plugin, const Step& step) {
   try {
     step();
   } catch (const std::invalid_argument& refused) {
-    throw DeckFailure(fmt::format("{}: error: {}", plugin.at().where(), refused.what()));
+    refuse(plugin.at(), refused.what());
   } catch (const packing::PackingFailure& failed) {
-    throw DeckFailure(fmt::format("{}: error: {}", plugin.at().where(), failed.what()));
+    refuse(plugin.at(), failed.what());
   }
 }
 
@@ -54,7 +54,7 @@ class PackingStep : public Filler {
   void fill(Domain& domain, const FillJob& job) final {
     const auto found = job.in_progress->find(*set);
     if (found == job.in_progress->end())
-      throw DeckFailure(fmt::format("{}: error: set '{}' is no packing in progress: <free-filling> has to come first", at().where(), *set));
+      refuse(at(), fmt::format("set '{}' is no packing in progress: <free-filling> has to come first", *set));
     auto& progress = std::any_cast<PackingInProgress&>(found->second);
     const std::size_t before = progress.packing.warnings.size();
     guarded(*this, [&] { go_on(progress.packing); });
@@ -76,7 +76,7 @@ class PackingStep : public Filler {
     const auto there = static_cast<Index>(members.size());
     if (count > there) {
       if (progress.first_row + there != domain.size())
-        throw DeckFailure(fmt::format("{}: error: other elements were made since set '{}' was begun: finish one packing before the next", at().where(), *set));
+        refuse(at(), fmt::format("other elements were made since set '{}' was begun: finish one packing before the next", *set));
       domain.add_elements(count - there);
       for (Index row = progress.first_row + there; row < domain.size(); ++row) members.push_back(row);
     }

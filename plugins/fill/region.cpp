@@ -35,7 +35,7 @@ class Region final : public Filler {
     else
       for (Index row = 0; row < domain.size(); ++row) look(row);
     if (members.empty())
-      throw DeckFailure(fmt::format("{}: error: set '{}' is empty: no element fulfils \"{}\"", where.at().where(), *set, where->text));
+      refuse(where.at(), fmt::format("set '{}' is empty: no element fulfils \"{}\"", *set, where->text));
     domain.sets()[*set] = std::move(members);
   }
 
