@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Small cases against what is known exactly.   Usage: bands.py CASE SOURCE_FOLDER BEADWORK
+
+Each case runs its decks and holds figures in bands, against the formulae that stand beside them."""
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+
+CASE, SOURCE, BEADWORK = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+failed = []
+
+
+class Result:
+    """What one run has left behind."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.summary = json.loads((self.folder / "summary.json").read_text())
+        self.energy = self.summary["energy"]
+
+    def curve(self, name):
+        """Columns by name, without units."""
+        with open(self.folder / "curves" / f"{name}.csv", newline="") as file:
+            rows = list(csv.reader(file))
+        names = [word.split(" [")[0] for word in rows[0]]
+        return {n: [float(row[c]) for row in rows[1:]] for c, n in enumerate(names)}
+
+    def last(self, set_name, field):
+        """A field of the first element of a set, in the last frame."""
+        with h5py.File(self.folder / "run.h5") as file:
+            frame = file["frames"][sorted(file["frames"])[-1]]["elements"]
+            member = file["sets"][set_name][0]
+            row = list(frame["id"][:]).index(member)
+            return [float(x) for x in frame[field][row]]
+
+    def breaks(self):
+        """(family, place in m, energy in J) of each broken bond, in the order of breaking."""
+        with h5py.File(self.folder / "run.h5") as file:
+            log = file["breaks"]
+            names = [n.decode() for n in log["family_names"][:]]
+            return [(names[f], [float(x) for x in p], float(e))
+                    for f, p, e in zip(log["family"][:], log["place"][:], log["energy"][:])]
+
+
+def run(deck, **parameters):
+    out = pathlib.Path(scratch) / f"run{len(list(pathlib.Path(scratch).iterdir()))}"
+    sets = [word for name, value in parameters.items() for word in ("--set", f"{name}={value}")]
+    subprocess.run([BEADWORK, "run", str(SOURCE / "xml-cases" / deck), "--out", str(out), "--threads", "1", "-q", *sets], check=True)
+    return Result(out)
+
+
+def near(what, measured, exact, band):
+    """Relative to the exact value."""
+    off = measured / exact - 1
+    good = abs(off) <= band
+    print(f"{'  ' if good else '! '}{what}: {measured:.7g}, exact {exact:.7g}, off by {off:+.2e}, band {band:g}")
+    if not good:
+        failed.append(what)
+
+
+def below(what, measured, limit):
+    good = measured <= limit
+    print(f"{'  ' if good else '! '}{what}: {measured:.4g}, limit {limit:g}")
+    if not good:
+        failed.append(what)
+
+
+def two_elements():
+    result = run("two-elements/quick.xml")
+    E, r, L = 100e9, 0.5e-3, 2e-3
+    curve = result.curve("force")
+    u, force = curve["displacement"][-1], curve["force"][-1]
+    near("force, E A/L u", force, E * math.pi * r**2 / L * u, 1e-3)
+    below("ledger's residual over work", abs(result.energy["residual"]) / result.energy["work"], 1e-9)
+
+
+# The chain of xml-cases/cantilever/specimen.xml.
+def cantilever():
+    E, nu, r, L = 70e9, 0.3, 0.4e-3, 20e-3
+    A, I = math.pi * r**2, math.pi * r**4 / 4
+    G = E / (2 * (1 + nu))
+
+    driven = run("cantilever/quick.xml")
+    tip, clamp = driven.curve("force"), driven.curve("clamp")
+    near("bending, driven: P = 3 E I/L^3 w", tip["force"][-1], 3 * E * I / L**3 * tip["displacement"][-1], 1e-4)
+    near("the clamp's reaction is -P", clamp["force"][-1], -tip["force"][-1], 1e-6)
+    below("ledger's residual over work", abs(driven.energy["residual"]) / driven.energy["work"], 1e-5)
+
+    P, N, T = 0.01, 10.0, 1e-3
+    bent = run("cantilever/push.xml", P=f"{P} N")
+    near("bending, dead load: w = P L^3/(3 E I)", bent.last("tip", "displacement")[2], P * L**3 / (3 * E * I), 1e-4)
+    q = bent.last("tip", "orientation")
+    near("slope of the tip: P L^2/(2 E I)", 2 * math.atan2(abs(q[2]), q[0]), P * L**2 / (2 * E * I), 1e-4)
+    near("the clamp's reaction is -P", bent.curve("clamp")["force"][-1], -P, 1e-6)
+    near("stored: half the dead load's final P w", bent.energy["stored"], 0.5 * P * P * L**3 / (3 * E * I), 1e-3)
+    near("work: stored and damped", bent.energy["work"], bent.energy["stored"] + bent.energy["dissipated"], 1e-6)
+
+    stretched = run("cantilever/push.xml", P="0 N", N=f"{N} N")
+    near("tension: N L/(E A)", stretched.last("tip", "displacement")[0], N * L / (E * A), 1e-4)
+
+    twisted = run("cantilever/push.xml", P="0 N", T=f"{1e3 * T} N.mm")
+    q = twisted.last("tip", "orientation")
+    near("torsion: T L/(G J)", 2 * math.atan2(q[1], q[0]), T * L / (G * 2 * I), 1e-4)
+
+    rough = run("cantilever/push.xml", P=f"{P} N", damping="0.8")
+    near("bending with strong damping", rough.last("tip", "displacement")[2], P * L**3 / (3 * E * I), 1e-3)
+
+
+def bar_wave():
+    result = run("bar-wave/quick.xml")
+    n, R, E, r, density, v = 200, 0.5e-3, 70e9, 0.4e-3, 2500, 1.0
+    L, A, m = n * 2 * R, math.pi * r**2, density * 4 / 3 * math.pi * R**3
+    c = math.sqrt(E * A * 2 * R / m)
+    impedance = E * A / c
+    held, struck = result.curve("held"), result.curve("struck")
+    time, force = held["time"], [-f for f in held["force"]]
+    # Half of the doubled force arrives with the middle of the front, which left the other end at half its rise.
+    k = next(k for k, f in enumerate(force) if f > impedance * v)
+    share = (impedance * v - force[k - 1]) / (force[k] - force[k - 1])
+    arrival = time[k - 1] + share * (time[k] - time[k - 1]) - 0.5 * 0.15 * L / c
+    near("wave speed: sqrt(E A L/m)", L / arrival, c, 1e-2)
+    near("force on the struck end: E A v/c", struck["force"][int(0.5 * len(time))], impedance * v, 1e-3)
+    near("doubled at the held end", force[-1], 2 * impedance * v, 1e-3)
+    below("ledger's residual over work", abs(result.energy["residual"]) / result.energy["work"], 1e-4)
+
+
+def notched_bar():
+    result = run("notched-bar/quick.xml")
+    force = result.curve("force")["force"]
+    peak = max(force)
+    tail = force[-len(force) // 8:]
+    below("force that is left over the peak: mean of the last eighth", abs(sum(tail) / len(tail)) / peak, 0.01)
+    L, h, notch = 12e-3, 4e-3, 1.6e-3
+    log = result.breaks()
+    x = [place[0] for _, place, _ in log]
+    z = [place[2] for _, place, _ in log]
+    below("the crack stays by the section of the notch: mean distance over length", abs(sum(x) / len(x) - L / 2) / L, 0.08)
+    below("farthest break from it over length", max(abs(p - L / 2) for p in x) / L, 0.15)
+    below("it starts at the tip of the notch: distance over height", math.hypot(x[0] - L / 2, z[0] - (h - notch)) / h, 0.15)
+    below("it runs to the bottom: lowest break over height", min(z) / h, 0.15)
+    below("ledger's residual over work", abs(result.energy["residual"]) / result.energy["work"], 0.02)
+    booked = sum(value for name, value in result.energy.items() if name.startswith("dissipated: ") and name != "dissipated: damping")
+    near("energy booked as released is that of the log", booked, sum(e for _, _, e in log), 1e-9)
+    near("breaks in the log", len(log), sum(result.summary["breaks"].values()), 0)
+
+    # Twice as strong and pulled twice as fast: the same fracture at twice the force, but for the change of shape.
+    strong = run("notched-bar/quick.xml", strength="60 MPa", v="0.02 m/s", end="22 um")
+    near("twice the strength, twice the peak", max(strong.curve("force")["force"]), 2 * peak, 0.02)
+
+
+with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
+    {"two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar}[CASE]()
+if failed:
+    sys.exit(f"{CASE}: out of band: {', '.join(failed)}")
