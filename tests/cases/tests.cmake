@@ -1,0 +1,11 @@
+# Each case's quick deck: same bits on one and two threads and across a restart, and nothing lost by a kill.
+set(here ${CMAKE_CURRENT_LIST_DIR})
+file(GLOB decks CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/xml-cases/*/quick.xml)
+foreach(deck IN LISTS decks)
+  get_filename_component(folder ${deck} DIRECTORY)
+  get_filename_component(name ${folder} NAME)
+  foreach(question same_bits killed terminated)
+    add_test(NAME cases/${name}/${question} COMMAND /usr/bin/python3 ${here}/run_cases.py $<TARGET_FILE:beadwork_cli> ${deck} ${question})
+    set_tests_properties(cases/${name}/${question} PROPERTIES LABELS cases TIMEOUT 600 ENVIRONMENT "BEADWORK_PLUGINS=")
+  endforeach()
+endforeach()
