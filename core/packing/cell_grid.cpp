@@ -174,7 +174,7 @@ void search(const Cloud& cloud, const Level& from, const Level& in, std::vector<
   const std::size_t blocks = (from.members().size() + block - 1) / block;
   const std::size_t base = found.size();
   found.resize(base + blocks);
-#pragma omp parallel for schedule(dynamic)
+#pragma omp parallel for schedule(dynamic) if (blocks > 19)
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t end = std::min(from.members().size(), (b + 1) * block);
     for (std::size_t k = b * block; k < end; ++k) {
@@ -196,7 +196,7 @@ std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (const auto& part : found)
     for (const Pair& p : part) pairs[next[p.i]++] = p;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (elements > 20000)
   for (std::size_t i = 0; i < elements; ++i)
     std::sort(pairs.begin() + std::ptrdiff_t(first[i]), pairs.begin() + std::ptrdiff_t(first[i + 1]),
               [](const Pair& a, const Pair& b) { return a.j < b.j; });

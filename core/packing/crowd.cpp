@@ -52,30 +52,27 @@ void scale_radii(Crowd& crowd, Real factor) {
   for (std::size_t i = 0; i < crowd.moving; ++i) crowd.ball[i].r *= factor;
 }
 
-bool Neighbours::still_valid(const Crowd& crowd) const {
-  if (built_for_.size() != crowd.ball.size()) return false;
-  // Two elements may come nearer by what each moved and grew; the worst two together must stay within the skin.
-  struct Largest {
-    Real change = 0;
-    void operator+=(const Largest& other) { change = std::max(change, other.change); }
-  };
-  const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Real moved = (crowd.ball[i].x - built_for_[i].x).norm();
-      const Real grown = std::max(Real(0), crowd.ball[i].r - built_for_[i].r);
-      largest.change = std::max(largest.change, moved + grown);
-    }
-  });
-  return 2 * worst.change <= skin_;
+void Neighbours::build(const Crowd& crowd) {
+  list_ = neighbours_of(near_pairs(crowd, skin_), crowd.ball.size());
+  built_for_ = crowd.ball;
+  ++builds_;
+}
+
+const NeighbourList& Neighbours::after(const Crowd& crowd, Real worst) {
+  // Two elements come nearer by what each moved and grew: the worst two together must stay within the skin.
+  if (!(2 * worst <= skin_)) build(crowd);
+  return list_;
 }
 
 const NeighbourList& Neighbours::of(const Crowd& crowd) {
-  if (!still_valid(crowd)) {
-    list_ = neighbours_of(near_pairs(crowd, skin_), crowd.ball.size());
-    built_for_ = crowd.ball;
-    ++builds_;
+  if (built_for_.size() != crowd.ball.size()) {
+    build(crowd);
+    return list_;
   }
-  return list_;
+  const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
+    for (std::size_t i = begin; i < end; ++i) largest.value = std::max(largest.value, change(crowd, i));
+  });
+  return after(crowd, worst.value);
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // The elements while they are being arranged: moving ones first, obstacles behind them; lengths in units of the mean
 // radius, so that the numbers of the method do not depend on the units of the specimen.
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -42,14 +43,26 @@ class Neighbours {
   explicit Neighbours(Real skin) : skin_(skin) {}
   /// The list for the crowd as it is; rebuilt only if needed.
   const NeighbourList& of(const Crowd&);
+  /// The same for one who followed the changes: `worst` is the largest `change` of an element.
+  const NeighbourList& after(const Crowd&, Real worst);
+  /// How far element i has come since the list was built, its growth included.
+  Real change(const Crowd& crowd, std::size_t i) const {
+    const Ball &now = crowd.ball[i], &then = built_for_[i];
+    return (now.x - then.x).norm() + std::max(Real(0), now.r - then.r);
+  }
   int builds() const { return builds_; }
 
  private:
-  bool still_valid(const Crowd&) const;
+  void build(const Crowd&);
   Real skin_;
   int builds_ = 0;
   std::vector<Ball> built_for_;
   NeighbourList list_;
+};
+
+struct Largest {
+  Real value = 0;
+  void operator+=(const Largest& other) { value = std::max(value, other.value); }
 };
 
 /// Contacts among elements (obstacles included, walls not) per moving element.

@@ -3,22 +3,6 @@
 #include "core/packing/blocks.hpp"
 
 namespace beadwork::packing {
-namespace {
-
-template <class Body>
-void each(std::size_t n, const Body& body) {
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < n; ++e) body(e);
-}
-
-Real product(const std::vector<Real>& a, const std::vector<Real>& b) {
-  return sum_in_blocks<Real>(a.size(), [&](std::size_t begin, std::size_t end, Real& s) {
-    for (std::size_t e = begin; e < end; ++e) s += a[e] * b[e];
-  });
-}
-
-}  // namespace
-
 ContactEquations::ContactEquations(std::size_t moving, const std::vector<Contact>& contacts,
                                    const std::vector<Real>& compliance)
     : moving_(moving), contact_(contacts), compliance_(compliance), change_(moving) {
@@ -51,59 +35,68 @@ Real ContactEquations::row_times_change(std::size_t e) const {
 }
 
 /// change = A^T lambda.
-void ContactEquations::scatter(const std::vector<Real>& lambda) {
-  each(moving_, [&](std::size_t i) {
+template <class Multiplier>
+void ContactEquations::scatter(const Multiplier& lambda) {
+  for_each(moving_, [&](std::size_t i) {
     Vec3 u = zero<Vec3>();
     Real r = 0;
     for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
       const bool as_i = term_[k] >= 0;
       const auto e = std::size_t(as_i ? term_[k] : -1 - term_[k]);
-      u += (as_i ? -lambda[e] : lambda[e]) * contact_[e].n;
-      r -= lambda[e];
+      const Real l = lambda(e);
+      u += (as_i ? -l : l) * contact_[e].n;
+      r -= l;
     }
     change_[i] = {u, compliance_[i] * r};
   });
 }
 
-void ContactEquations::apply(const std::vector<Real>& lambda, const std::vector<Real>& damping,
-                             std::vector<Real>& image) {
-  scatter(lambda);
-  each(contact_.size(), [&](std::size_t e) { image[e] = row_times_change(e) + damping[e] * lambda[e]; });
-}
-
 std::vector<Real> ContactEquations::remaining() const {
   std::vector<Real> gap(contact_.size());
-  each(contact_.size(), [&](std::size_t e) { gap[e] = contact_[e].gap + row_times_change(e); });
+  for_each(contact_.size(), [&](std::size_t e) { gap[e] = contact_[e].gap + row_times_change(e); });
   return gap;
 }
 
+/// Each iteration is three passes, so that threads wait for each other three times only: the new direction is formed
+/// twice, once where the elements gather it and once where it is stored.
 int ContactEquations::solve(const Damping& damping, Real reduction, int most) {
   const std::size_t n = contact_.size();
-  std::vector<Real> lambda(n, 0), residual(n), scaled(n), direction(n), image(n), inverse(n), extra(n);
-  each(n, [&](std::size_t e) {
+  std::vector<Real> lambda(n, 0), residual(n), scaled(n), direction(n, 0), image(n), inverse(n), extra(n);
+  const auto sum = [n](const auto& term) {
+    return sum_in_blocks<Real>(n, [&](std::size_t begin, std::size_t end, Real& s) {
+      for (std::size_t e = begin; e < end; ++e) s += term(e);
+    });
+  };
+  Real rho = sum([&](std::size_t e) {
     const Contact& c = contact_[e];
     const Real diagonal = 1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
     extra[e] = (c.gap > 0 ? damping.open : damping.overlapping) * diagonal;
     inverse[e] = 1 / (diagonal + extra[e]);
     residual[e] = -c.gap;
-    direction[e] = scaled[e] = inverse[e] * residual[e];
+    scaled[e] = inverse[e] * residual[e];
+    return residual[e] * scaled[e];
   });
-  Real rho = product(residual, scaled);
   const Real goal = rho * reduction * reduction;
+  Real turn = 0;
   int k = 0;
   for (; k < most && rho > goal; ++k) {
-    apply(direction, extra, image);
-    const Real step = rho / product(direction, image);
-    each(n, [&](std::size_t e) {
+    scatter([&](std::size_t e) { return scaled[e] + turn * direction[e]; });
+    const Real curvature = sum([&](std::size_t e) {
+      direction[e] = scaled[e] + turn * direction[e];
+      image[e] = row_times_change(e) + extra[e] * direction[e];
+      return direction[e] * image[e];
+    });
+    const Real step = rho / curvature;
+    const Real before = rho;
+    rho = sum([&](std::size_t e) {
       lambda[e] += step * direction[e];
       residual[e] -= step * image[e];
       scaled[e] = inverse[e] * residual[e];
+      return residual[e] * scaled[e];
     });
-    const Real before = rho;
-    rho = product(residual, scaled);
-    each(n, [&](std::size_t e) { direction[e] = scaled[e] + rho / before * direction[e]; });
+    turn = rho / before;
   }
-  scatter(lambda);
+  scatter([&](std::size_t e) { return lambda[e]; });
   return k;
 }
 

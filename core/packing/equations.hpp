@@ -45,8 +45,8 @@ class ContactEquations {
   bool moves(Index j) const { return j >= 0 && std::size_t(j) < moving_; }
   void list_terms();
   Real row_times_change(std::size_t e) const;
-  void scatter(const std::vector<Real>& lambda);
-  void apply(const std::vector<Real>& lambda, const std::vector<Real>& damping, std::vector<Real>& image);
+  template <class Multiplier>
+  void scatter(const Multiplier& lambda);
 
   std::size_t moving_;
   const std::vector<Contact>& contact_;

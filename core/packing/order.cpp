@@ -61,7 +61,7 @@ std::vector<Index> hilbert_order(std::span<const Vec3> position) {
   const Real top = Real((1u << bits_per_axis) - 1);
   const Real scale = extent > 0 ? top / extent : 0;
   std::vector<std::uint64_t> key(position.size());
-#pragma omp parallel for
+#pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < position.size(); ++i) {
     std::array<std::uint32_t, 3> cell;
     for (int a = 0; a < 3; ++a)

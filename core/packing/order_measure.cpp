@@ -38,14 +38,13 @@ Order bond_order(const Crowd& crowd) {
   const NeighbourList list = neighbours_of(pairs, crowd.ball.size());
   std::vector<Directions> directions(crowd.moving);
   std::vector<Real> own(crowd.moving, 0);
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < crowd.moving; ++i) {
+  for_each(crowd.moving, [&](std::size_t i) {
     for (const Index j : list.of(i)) {
       const Vec3 d = crowd.ball[std::size_t(j)].x - crowd.ball[i].x;
       if (std::size_t(j) < crowd.moving && d.norm() > 0) directions[i].push_back(d.normalized());
     }
     if (!directions[i].empty()) own[i] = mean_product(directions[i], directions[i]);
-  }
+  });
   const Count count = sum_in_blocks<Count>(crowd.moving, [&](std::size_t begin, std::size_t end, Count& c) {
     for (std::size_t i = begin; i < end; ++i) {
       int alike = 0;

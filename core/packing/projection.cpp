@@ -81,8 +81,7 @@ class Allowance {
 
  private:
   void apply(const std::vector<Ball>& ball, Real mean, Ball* clipped) {
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < compliance_.size(); ++i) {
+    for_each(compliance_.size(), [&](std::size_t i) {
       const Real own = drawn_[i] / drawn_mean_ * mean;
       const Real low = std::max(own * (1 - bounds_.change), std::min(own, bounds_.low * mean));
       const Real high = std::min(own * (1 + bounds_.change), std::max(own, bounds_.high * mean));
@@ -90,7 +89,7 @@ class Allowance {
       const Real used = (r / own - 1) / bounds_.change;
       compliance_[i] = r < low || r > high ? 0 : radius_compliance * (1 - used * used);
       if (clipped) clipped[i].r = std::clamp(r, low, high);
-    }
+    });
   }
   RadiusBounds bounds_;
   std::vector<Real> drawn_;
@@ -99,14 +98,13 @@ class Allowance {
 };
 
 void add(const std::vector<Change>& change, Real share, Crowd& crowd) {
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < crowd.moving; ++i) {
+  for_each(crowd.moving, [&](std::size_t i) {
     // Half a radius at most: a round that goes astray must not throw elements out of the region.
     const Vec3 u = share * change[i].u;
     const Real length = u.norm(), most = crowd.ball[i].r / 2;
     crowd.ball[i].x += length > most ? Vec3(most / length * u) : u;
     crowd.ball[i].r = std::max(crowd.ball[i].r + share * change[i].r, crowd.ball[i].r / 2);
-  }
+  });
 }
 
 Real rms_gap(const std::vector<Contact>& contacts) {
@@ -140,8 +138,7 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
     std::vector<Key> keys;
     std::set_union(known.begin(), known.end(), found.keys.begin(), found.keys.end(), std::back_inserter(keys));
     std::vector<Contact> contacts(keys.size());
-#pragma omp parallel for schedule(static)
-    for (std::size_t e = 0; e < keys.size(); ++e) contacts[e] = contact_of(crowd, keys[e]);
+    for_each(keys.size(), [&](std::size_t e) { contacts[e] = contact_of(crowd, keys[e]); });
     ContactEquations equations(crowd.moving, contacts, allowance.compliance());
     result.iterations += equations.solve(damping, 1e-3, 400);
     const bool gently = result.rounds < gentle_rounds;

@@ -23,11 +23,6 @@ void check(const Relaxation& rule) {
                                 std::to_string(rule.radius_change));
 }
 
-struct Largest {
-  Real value = 0;
-  void operator+=(const Largest& other) { value = std::max(value, other.value); }
-};
-
 /// The share by which all radii must shrink for the last overlap to vanish.
 Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
   const NeighbourList& list = neighbours.of(crowd);

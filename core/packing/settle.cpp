@@ -80,11 +80,11 @@ Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residua
   std::vector<Vec3> force(crowd.moving);
   Fire fire;
   Settled settled;
+  const NeighbourList* list = &neighbours.of(crowd);
   while (settled.steps < max_steps) {
-    const NeighbourList& list = neighbours.of(crowd);
     const Sums sums = sum_in_blocks<Sums>(crowd.moving, [&](std::size_t begin, std::size_t end, Sums& s) {
       for (std::size_t i = begin; i < end; ++i) {
-        force[i] = push_on(crowd, list.of(i), i, s);
+        force[i] = push_on(crowd, list->of(i), i, s);
         s.power += force[i].dot(velocity[i]);
         s.force2 += force[i].squaredNorm();
         s.speed2 += velocity[i].squaredNorm();
@@ -96,8 +96,13 @@ Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residua
         sums.load > 0 ? std::sqrt(sums.force2 / Real(crowd.moving)) / (sums.load / sums.contacts) : 0;
     if (settled.residual <= residual || settled.pressure <= pressure) break;
     fire.judge(sums);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < crowd.moving; ++i) fire.move(crowd.ball[i].x, velocity[i], force[i]);
+    const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& w) {
+      for (std::size_t i = begin; i < end; ++i) {
+        fire.move(crowd.ball[i].x, velocity[i], force[i]);
+        w.value = std::max(w.value, neighbours.change(crowd, i));
+      }
+    });
+    list = &neighbours.after(crowd, worst.value);
   }
   return settled;
 }
