@@ -63,6 +63,7 @@ class Verlet final : public Mover {
     Moment& now = w.moment();
     position_ = w.domain().elements().column("position").view<Vec3>();
     grips_.before_advance(w, position_);
+    remember_rates();
     advance_all(now.time_step);
     grips_.after_advance(w, position_, mass.view());
     now.time += now.time_step;
@@ -72,6 +73,7 @@ class Verlet final : public Mover {
     grips_.react(w, places(), turns(), *beta);
     correct_all(w);
     grips_.after_correct(w, places(), turns());
+    book_beta();
     if (now.step % 100 == 0) check_speed(w);
   }
 
@@ -82,7 +84,7 @@ class Verlet final : public Mover {
                    return 0.5 * twice;
                  }) /
                  *beta);
-    if (*local_damping > 0) sink.dissipated("damping", damped[0]);
+    if (*local_damping > 0 || *beta < 1) sink.dissipated("damping", damped[0]);
   }
 
  private:
@@ -157,6 +159,32 @@ class Verlet final : public Mover {
     });
   }
 
+  void remember_rates() {
+    if (*beta == 1) return;
+    before_.resize(static_cast<std::size_t>(count_) * 2);
+    for (Index i = 0; i < count_; ++i) {
+      before_[static_cast<std::size_t>(i) * 2] = velocity[i];
+      if (spin) before_[static_cast<std::size_t>(i) * 2 + 1] = spin[i];
+    }
+  }
+
+  // Beta below 1 takes (1 - beta)/(2 beta^2) m |v' - v|^2 a step.   docs/theory/verlet.md
+  void book_beta() {
+    if (*beta == 1) return;
+    const auto change = [&](const View<Vec3>& rate, Index i, int first_axis) {
+      const Vec3& before = before_[static_cast<std::size_t>(i) * 2 + static_cast<std::size_t>(first_axis / 3)];
+      Real squared = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        if (!grips_.holds(i, first_axis + axis)) squared += (rate.at(i, axis) - before[axis]) * (rate.at(i, axis) - before[axis]);
+      return squared;
+    };
+    damped[0] += (1 - *beta) / (2 * *beta * *beta) * fixed_sum(count_, [&](Index i) {
+                   Real squared = mass[i] * change(velocity.view(), i, 0);
+                   if (spin) squared += inertia[i] * change(spin.view(), i, 3);
+                   return squared;
+                 });
+  }
+
   [[noreturn]] void stop_at_force(Workings& w) {
     for (Index i = 0; i < count_; ++i)
       if (!force[i].allFinite() || (spin && !torque[i].allFinite()))
@@ -191,6 +219,7 @@ class Verlet final : public Mover {
   Index count_ = 0;
   View<Vec3> position_;
   Grips grips_;
+  std::vector<Vec3> before_;  // velocity and spin of each element when the step began, where beta is below 1
   StepLimit step_;
   Real stable_ = 0;
 };
