@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+"""Runs a good deck and holds what it gives against what is expected.   Usage: run_good.py BEADWORK EXPECT
+
+    # a remark
+    run with --set v=2 m/s                            more words for the command line, one option a line
+    force.force at end = 300 N within 1 percent       a curve's column, at its last row
+    force.force at 1 ms = 300 N within 2 N            at the row nearest to a time
+    energy.residual at all < 1e-6 J                   in every row; also: largest, smallest, start
+    element 1 velocity.x = 2 m/s within 1e-9 percent  an element (by its id) at the end
+    summary.breaks.axial = 1                          a figure of summary.json
+
+Comparisons: = < >. Values are numbers or formulae such as 4/3*pi*2^3, with a unit. Without "within" = means equal.
+"""
+import csv
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+
+UNITS = {"": ("1", 1), "N": ("N", 1), "kN": ("N", 1e3), "mN": ("N", 1e-3), "J": ("J", 1), "mJ": ("J", 1e-3), "m": ("m", 1), "mm": ("m", 1e-3),
+         "um": ("m", 1e-6), "nm": ("m", 1e-9), "s": ("s", 1), "ms": ("s", 1e-3), "us": ("s", 1e-6), "m/s": ("m/s", 1), "mm/s": ("m/s", 1e-3),
+         "1/s": ("1/s", 1), "Pa": ("Pa", 1), "MPa": ("Pa", 1e6)}
+
+
+class Mistake(Exception):
+    """Of the one who wrote the expectation."""
+
+
+def quantity(text):
+    """Value in SI and the unit's name in SI."""
+    found = re.fullmatch(r"(.*?[\d.)i])(?:\s+(\S+))?", text.strip())
+    if not found or not re.fullmatch(r"(?:[\d.+\-*/^() ]|\de|pi|sqrt)*", found[1]):
+        raise Mistake(f"no value: {text}")
+    if (found[2] or "") not in UNITS:
+        raise Mistake(f"unknown unit {found[2]}")
+    unit, factor = UNITS[found[2] or ""]
+    number = eval(found[1].replace("^", "**"), {"__builtins__": {}, "pi": math.pi, "sqrt": math.sqrt})  # characters checked above
+    return number * factor, unit
+
+
+class Results:
+    def __init__(self, folder):
+        self.folder = folder
+        self.summary = json.loads((folder / "summary.json").read_text())
+
+    def values(self, what):
+        """The values that are meant, and their unit."""
+        if found := re.fullmatch(r"element (\d+) ([\w-]+)(?:\.([xyz]))?", what):
+            return self.element(int(found[1]), found[2], found[3])
+        if what.startswith("summary."):
+            value = self.summary
+            for key in what.split(".")[1:]:
+                value = value[key]
+            return [value], "1"
+        if found := re.fullmatch(r"([\w-]+)\.(.+?) at (.+)", what):
+            return self.curve(*found.groups())
+        raise Mistake(f"neither a curve, an element nor a figure of the summary: {what}")
+
+    def element(self, number, field, axis):
+        with h5py.File(self.folder / "checkpoint.h5") as file:
+            elements = file["elements"]
+            row = elements["id"][()].tolist().index(number)
+            value = elements[field][row]
+            return [value["xyz".index(axis)] if axis else value], elements[field].attrs["unit"].decode()
+
+    def curve(self, name, column, place):
+        with open(self.folder / f"curves/{name}.csv", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        heads = [re.fullmatch(r"(.*) \[(.*)\]", head).groups() for head in rows[0]]
+        names = [head[0] for head in heads]
+        if column not in names:
+            raise Mistake(f"{name} has no column '{column}'; it has {', '.join(names)}")
+        unit = heads[names.index(column)][1]
+        values = [float(row[names.index(column)]) for row in rows[1:]]
+        if place == "all":
+            return values, unit
+        chosen = {"start": lambda: values[0], "end": lambda: values[-1], "largest": lambda: max(values), "smallest": lambda: min(values)}
+        if place in chosen:
+            return [chosen[place]()], unit
+        time, _ = quantity(place)
+        times = [float(row[names.index("time")]) for row in rows[1:]]
+        return [values[min(range(len(times)), key=lambda k: abs(times[k] - time))]], unit
+
+
+def failure(line, results):
+    found = re.fullmatch(r"(.+?) (=|<|>) (.+?)(?: within (.+))?", line)
+    if not found:
+        raise Mistake("no expectation")
+    what, comparison, wanted_text, within = found.groups()
+    values, unit = results.values(what)
+    if isinstance(values[0], str):
+        return None if values[0] == wanted_text else f'got "{values[0]}"'
+    wanted, wanted_unit = quantity(wanted_text)
+    if wanted_unit != unit and not what.startswith("summary."):
+        raise Mistake(f"{what} is in {unit}, not in {wanted_unit}")
+    tolerance = 0
+    if within:
+        tolerance = abs(wanted) * quantity(within[:-8])[0] / 100 if within.endswith(" percent") else quantity(within)[0]
+    holds = {"=": lambda v: abs(v - wanted) <= tolerance, "<": lambda v: v < wanted, ">": lambda v: v > wanted}[comparison]
+    bad = [v for v in values if not holds(v)]
+    return f"got {bad[0]:.9g} {unit}, wanted {wanted:.9g}" if bad else None
+
+
+def main():
+    beadwork, expect = sys.argv[1], Path(sys.argv[2])
+    lines = [line.strip() for line in expect.read_text().splitlines()]
+    lines = [line for line in lines if line and not line.startswith("#")]
+    more = [word for line in lines if line.startswith("run with ") for word in line[9:].split(" ", 1)]
+    wrong = []
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "run"
+        command = [beadwork, "run", "-q", str(expect.with_suffix(".xml")), "--out", str(out), "--threads", "1", *more]
+        done = subprocess.run(command, env={**os.environ, "BEADWORK_PLUGINS": ""}, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            print(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+            return 1
+        results = Results(out)
+        for line in lines:
+            if line.startswith("run with "):
+                continue
+            try:
+                if reason := failure(line, results):
+                    wrong.append(f"{line}\n    {reason}")
+            except (Mistake, KeyError, ValueError) as mistake:
+                wrong.append(f"{line}\n    this expectation cannot be read: {mistake}")
+    print("\n".join(wrong) or f"{len(lines)} expectations met")
+    return 1 if wrong else 0
+
+
+sys.exit(main())
