@@ -11,7 +11,8 @@
 namespace beadwork {
 namespace {
 
-constexpr std::int64_t cells_per_axis = 1 << 20;
+constexpr int bits_per_axis = 21;
+constexpr std::int64_t axis_mask = (std::int64_t(1) << bits_per_axis) - 1;
 constexpr int max_levels = 16;
 
 struct Rule {
@@ -39,7 +40,8 @@ class Level {
  public:
   Level(const Cloud& cloud, std::vector<Index> members) : cloud_(cloud) {
     for (const Index i : members) largest_ = std::max(largest_, cloud.radius[i]);
-    edge_ = std::max(cloud.rule.reach(largest_, largest_), cloud.extent / Real(cells_per_axis - 4));
+    // So wide at least that the number of a cell is exact in floating point.
+    edge_ = std::max(cloud.rule.reach(largest_, largest_), cloud.extent * 0x1p-50);
     if (!(edge_ > 0)) edge_ = 1;
     sort_into_cells(members);
     fill_table();
@@ -71,11 +73,13 @@ class Level {
 
   std::array<std::int64_t, 3> cell_of(const Vec3& x) const {
     std::array<std::int64_t, 3> c;
-    for (int a = 0; a < 3; ++a) c[a] = 2 + static_cast<std::int64_t>(std::floor((x[a] - cloud_.low[a]) / edge_));
+    for (int a = 0; a < 3; ++a) c[a] = static_cast<std::int64_t>(std::floor((x[a] - cloud_.low[a]) / edge_));
     return c;
   }
+  /// Cells a multiple of 2^21 apart share a key: more candidates whose distance is looked at, nothing worse.
   static std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
-    return std::uint64_t(x) | std::uint64_t(y) << 21 | std::uint64_t(z) << 42;
+    return std::uint64_t(x & axis_mask) | std::uint64_t(y & axis_mask) << bits_per_axis |
+           std::uint64_t(z & axis_mask) << 2 * bits_per_axis;
   }
 
   void sort_into_cells(const std::vector<Index>& members) {
@@ -148,6 +152,7 @@ Cloud cloud_of(std::span<const Vec3> position, std::span<const Real> radius, con
     high = high.cwiseMax(x);
   }
   cloud.extent = (high - cloud.low).maxCoeff();
+  if (!std::isfinite(cloud.extent)) throw std::invalid_argument("the elements are too far apart for numbers of this size");
   return cloud;
 }
 
