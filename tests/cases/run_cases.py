@@ -23,7 +23,7 @@ import numpy
 # runs STEPS steps of its deck as it is.
 STEPS = 600
 HURRY = {
-    "dcb": (600, ["v=200 m/s", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
+    "dcb": (600, ["v=200 m/s", "a0=1 mm", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds"}  # told, not computed
