@@ -71,23 +71,27 @@ void place_all(Packing& packing, Real tolerance) {
   throw PackingFailure(out.str());
 }
 
-/// Radii grow or shrink together until the coordination number is that asked, or a little above.
+/// Radii grow or shrink together until the coordination number is that asked, or a little above; or until elements
+/// hardly overlap any more: a packing that holds has a coordination number below which it cannot go.
 void reach_coordination(Crowd& crowd, Real asked) {
   constexpr Real band = 0.03;
-  constexpr Real slope = 90;  // recorded: dZ / d(ln R) near Z = 6.2
+  constexpr Real slope = 90;         // recorded: dZ / d(ln R) near Z = 6.2
+  constexpr Real hardly = 3e-4;      // mean overlap / (R1 + R2)
   Neighbours neighbours(skin);
-  Real gain = 1, before = 0, Z = 0;
+  Real gain = 1, before = 0, Z = 0, overlap = 0;
   for (int round = 0; round < most_rounds; ++round) {
     settle(crowd, neighbours, round == 0 ? 600 : 300, 0.03);
     Z = coordination(crowd, neighbours);
-    if (Z >= asked && Z <= asked + band) return;
-    if (overlaps(crowd, neighbours).mean > most_overlap) break;
+    overlap = overlaps(crowd, neighbours).mean;
+    if (Z >= asked && (Z <= asked + band || overlap < hardly)) return;
+    if (overlap > most_overlap) break;
     const Real missing = asked + band / 2 - Z;
     if (missing * before < 0) gain /= 2;  // it went past: the steps become shorter
     before = missing;
-    scale_radii(crowd, 1 + std::clamp(gain * missing / slope, -0.01, 0.01));
+    // Never down past the point where they come apart, which is about 1.7 times the mean overlap away.
+    scale_radii(crowd, 1 + std::clamp(gain * missing / slope, -std::min(0.01, 1.3 * overlap), 0.01));
   }
-  if (Z < asked) refuse_coordination(crowd, asked, Z, overlaps(crowd, neighbours).mean);
+  if (Z < asked) refuse_coordination(crowd, asked, Z, overlap);
 }
 
 }  // namespace
