@@ -42,9 +42,9 @@ class CrackLength final : public Watcher {
       if (damage[b] > 0) damaged += area[b];
     }
     const Real length = *end - *from;
-    const Real bonded = *end - *start;
-    const Real by_open = *start - *from + bonded * open / all;
-    const Real by_damage = *start - *from + bonded * damaged / all;
+    const Real per_area = all > 0 ? (*end - *start) / all : 0;  // no contacts yet: they come in a later stage
+    const Real by_open = *start - *from + per_area * open;
+    const Real by_damage = *start - *from + per_area * damaged;
     std::vector<Real> row{driven(sight), by_open / length, by_damage / length, by_damage - by_open};
     CurvePlan plan{.name = *name,
                    .columns = {{"displacement", "m"}, {"crack length open", "1"}, {"crack length damaged", "1"}, {"process zone", "m"}},
