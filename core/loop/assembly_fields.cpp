@@ -42,18 +42,17 @@ Table* Assembly::table_of(const Plugin& plugin, On on) const {
   return family ? &family->rows() : nullptr;
 }
 
-// What is kept, added to or filled exists for sure.
+// What is kept or added to exists for sure.
 void Assembly::add_provided() {
   for (const auto& plugin : scene_.plugins) {
-    const bool fills = dynamic_cast<const Filler*>(plugin.get()) != nullptr;
     for (const FieldUse* use : plugin->uses()) {
-      if (!use->wanted() || use->verb() == Verb::reads || (use->verb() == Verb::writes && !fills)) continue;
+      if (!use->wanted() || use->verb() == Verb::reads || use->verb() == Verb::writes) continue;
       Table* table = table_of(*plugin, use->field().on);
       if (!table) continue;
       Field field = use->field();
       field.name = plugin->column_name(*use);
       Column& column = table->add(field);
-      if (use->verb() == Verb::keeps || fills) column.keep();
+      if (use->verb() == Verb::keeps) column.keep();
     }
   }
 }
@@ -103,14 +102,16 @@ void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
   }
 }
 
-// Takes up an offer: makes the column of a field that some plugin writes only if it is read.
+// Takes up an offer: makes the column of a field that some plugin writes only if it is read. What a filling plugin
+// writes is written once, so it is kept.
 bool Assembly::provide(On on, const std::string& name, const std::string& family) {
   bool found = false;
   for (const auto& plugin : scene_.plugins)
     for (const FieldUse* use : plugin->uses())
       if (use->wanted() && use->verb() == Verb::writes && use->field().on == on && use->field().name == name &&
           (on != On::bonds || plugin->family() == family)) {
-        table_of(*plugin, on)->add(use->field());
+        Column& column = table_of(*plugin, on)->add(use->field());
+        if (dynamic_cast<const Filler*>(plugin.get())) column.keep();
         found = true;
       }
   return found;

@@ -148,6 +148,23 @@ void Run::close(const std::string& status, const std::string& reason) {
   write_summary();
 }
 
+namespace {
+
+// What the mover of another stage has damped counts; the elements' motion is told by the present one alone.
+class WithoutKinetic final : public EnergySink {
+ public:
+  explicit WithoutKinetic(EnergySink& sink) : sink_(sink) {}
+  void work(const std::string& by, Real joule) override { sink_.work(by, joule); }
+  void stored(const std::string& in, Real joule) override { sink_.stored(in, joule); }
+  void kinetic(Real) override {}
+  void dissipated(const std::string& by, Real joule) override { sink_.dissipated(by, joule); }
+
+ private:
+  EnergySink& sink_;
+};
+
+}  // namespace
+
 void Run::energies(EnergySink& sink) const {
   for (const auto& stage : constraints_)
     for (const Constraint& c : stage) sink.work(c.set, c.work);
@@ -156,7 +173,11 @@ void Run::energies(EnergySink& sink) const {
     sink.dissipated(law->family(), law->dissipated_energy(*scene_.domain, *table));
   }
   for (const auto& [table, energy] : released_) sink.dissipated(table->name(), energy);
-  for (const auto& plugin : scene_.plugins) plugin->energy(sink);
+  WithoutKinetic earlier(sink);
+  for (const auto& plugin : scene_.plugins) {
+    const bool other_mover = dynamic_cast<const Mover*>(plugin.get()) && plugin.get() != &scene_.stages[stage_number()].mover();
+    plugin->energy(other_mover ? static_cast<EnergySink&>(earlier) : sink);
+  }
 }
 
 CurveSink& Run::curve(const CurvePlan& plan) {

@@ -41,6 +41,11 @@ struct One {
     const std::byte* base = column.base();
     return {number(base), number(base + column.plane()), number(base + 2 * column.plane())};
   }
+  [[gnu::always_inline]] Quat operator()(const View<const Quat>& column) const {
+    const std::byte* base = column.base();
+    const std::size_t plane = column.plane();
+    return {number(base), Vec3(number(base + plane), number(base + 2 * plane), number(base + 3 * plane))};
+  }
   [[gnu::always_inline]] void store(const View<Real>& column, Real value) const { column[row] = value; }
   void store(const View<Vec3>& column, const Vec3& value) const { column.set(row, value); }
   [[gnu::always_inline]] void flag(bool mask) const { *flagged |= mask; }

@@ -68,7 +68,8 @@ std::string Plugin::column_name(const FieldUse& use) const {
 
 void Plugin::bind(Domain& domain) {
   for (FieldUse* use : uses_) {
-    if (!use->wanted()) continue;
+    // A column to keep may have been made later than the plugin could tell, when its bonds were made.
+    if (!use->wanted() && use->verb() != Verb::keeps) continue;
     Table* table = nullptr;
     switch (use->field().on) {
       case On::elements: table = &domain.elements(); break;

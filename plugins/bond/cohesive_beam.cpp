@@ -43,8 +43,26 @@ struct CohesiveBeamLaw {
   }
 };
 
+/// Beams between elements that had turned before they were bonded: orientations count from the bonding.
+struct CohesiveBeamFromTurned : CohesiveBeamLaw {
+  View<const Quat> reference1, reference2;
+
+  template <class At, class T>
+  [[gnu::always_inline]] Ends<T> since_bonding(const At& at, const Ends<T>& ends) const {
+    return {ends.apart, ends.q1 * conjugate(at(reference1)), ends.q2 * conjugate(at(reference2))};
+  }
+  template <Pass pass, class At, class T>
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+    return CohesiveBeamLaw::act<pass>(at, since_bonding(at, ends));
+  }
+  template <class At, class T>
+  T stored(const At& at, const Ends<T>& ends) const {
+    return CohesiveBeamLaw::stored(at, since_bonding(at, ends));
+  }
+};
+
 /// Cohesive beam: resists stretching, bending and twisting.   docs/theory/cohesive-beam.md
-class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw> {
+class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTurned> {
  public:
   static constexpr const char* about = "Beams of round section between neighbouring elements: a bonded elastic solid";
   Param<Real> young{this, {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus E_mu of the beams (microscopic)"}};
@@ -60,12 +78,21 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw> {
   Keeps<Real> length{this, field::rest_length};
   Keeps<Real> axial{this, {"axial-stiffness", On::bonds, "N/m", "E A / L"}};
   Keeps<Real> bending{this, {"bending-stiffness", On::bonds, "N.m", "2 E I / L"}};
+  // Only where elements had turned before they were bonded, which is known when they are.
+  Keeps<Quat> reference1{this, {"reference-1", On::bonds, "1", "Orientation of the first element when the bond was made"}};
+  Keeps<Quat> reference2{this, {"reference-2", On::bonds, "1", "Orientation of the second element when the bond was made"}};
   Writes<Real> section_radius{this, field::section_radius};
   Writes<Real> axial_force{this, field::axial_force};
   Writes<Real> bending_moment{this, field::bending_moment};
   Writes<Real> twisting_moment{this, field::twisting_moment};
 
-  void connect(Domain&, BondTable& table) override {
+  void choose() override {
+    reference1.want(false);
+    reference2.want(false);
+  }
+
+  void connect(Domain& domain, BondTable& table) override {
+    note_turned(domain, table);
     for (Index row = 0; row < table.size(); ++row) {
       const Index i = table.first()[row];
       const Index j = table.second()[row];
@@ -91,9 +118,26 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw> {
   }
 
  protected:
-  AnyLaw law() const override { return columns(); }
+  AnyLaw law() const override {
+    if (reference1) return CohesiveBeamFromTurned{columns(), reference1.view(), reference2.view()};
+    return columns();
+  }
 
  private:
+  void note_turned(Domain& domain, BondTable& table) {
+    bool turned = false;
+    for (Index row = 0; row < table.size(); ++row)
+      for (const Index end : {table.first()[row], table.second()[row]}) turned |= orientation[end].v.squaredNorm() > 0;
+    if (!turned) return;
+    for (FieldUse* use : {static_cast<FieldUse*>(&reference1), static_cast<FieldUse*>(&reference2)}) table.rows().add(use->field()).keep();
+    table.rebind();
+    bind(domain);
+    for (Index row = 0; row < table.size(); ++row) {
+      reference1.set(row, orientation[table.first()[row]]);
+      reference2.set(row, orientation[table.second()[row]]);
+    }
+  }
+
   CohesiveBeamLaw columns() const {
     return {axis.view(), length.view(), axial.view(), bending.view(), torsion_to_bending(*poisson),
             axial_force.view(), bending_moment.view(), twisting_moment.view(), section_radius.view()};
