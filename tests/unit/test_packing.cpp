@@ -136,11 +136,17 @@ TEST(Packing, leaves_obstacles_alone_and_does_not_touch_them_deeper_than_allowed
     request.around.position.push_back({0.5, 0.5, (k + 0.5) / 25});
     request.around.radius.push_back(0.18);
   }
-  const Packing p = filled(request);
-  auto x = p.position;
-  auto r = p.radius;
-  x.insert(x.end(), p.around.position.begin(), p.around.position.end());
-  r.insert(r.end(), p.around.radius.begin(), p.around.radius.end());
+  Packing p = free_filling(request);
+  const auto with_obstacles = [&p](auto all, const auto& obstacles) {
+    all.insert(all.end(), obstacles.begin(), obstacles.end());
+    return all;
+  };
+  EXPECT_EQ(deepest_overlap(p, with_obstacles(p.position, p.around.position),
+                            with_obstacles(p.radius, p.around.radius), p.position.size()), 0);
+  forced_filling(p);
+  relaxation(p);
+  const auto x = with_obstacles(p.position, p.around.position);
+  const auto r = with_obstacles(p.radius, p.around.radius);
   EXPECT_EQ(p.around.position, request.around.position);
   EXPECT_THAT(p.position, SizeIs(1200));
   EXPECT_LE(deepest_overlap(p, x, r, 1200), 1e-7);
