@@ -18,7 +18,8 @@ void for_each(std::size_t count, const Body& body) {
   for (std::size_t k = 0; k < count; ++k) body(k);
 }
 
-/// Calls `part(begin, end, sum)` on each block of the range, each with its own sum, and adds the sums in order.
+/// Calls `part(begin, end, sum)` on each block of the range, each with its own sum, and adds the sums in
+/// order.
 template <class Sum, class Part>
 Sum sum_in_blocks(std::size_t count, const Part& part) {
   constexpr std::size_t block = 512;

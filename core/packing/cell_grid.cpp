@@ -34,8 +34,8 @@ struct Cloud {
   }
 };
 
-/// Elements of similar size in cells at least as wide as the reach of any two of them. Occupied cells only are kept,
-/// in a hash table, so that one element far away costs nothing.
+/// Elements of similar size in cells at least as wide as the reach of any two of them. Occupied cells only
+/// are kept, in a hash table, so that one element far away costs nothing.
 class Level {
  public:
   Level(const Cloud& cloud, std::vector<Index> members) : cloud_(cloud) {
@@ -88,8 +88,9 @@ class Level {
       const auto c = cell_of(cloud_.position[members[k]]);
       entries[k] = {key_of(c[0], c[1], c[2]), members[k]};
     }
-    std::sort(entries.begin(), entries.end(),
-              [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.element < b.element; });
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+      return a.key != b.key ? a.key < b.key : a.element < b.element;
+    });
     for (std::size_t k = 0; k < entries.size(); ++k) {
       if (k == 0 || entries[k].key != entries[k - 1].key) {
         key_.push_back(entries[k].key);
@@ -152,7 +153,8 @@ Cloud cloud_of(std::span<const Vec3> position, std::span<const Real> radius, con
     high = high.cwiseMax(x);
   }
   cloud.extent = (high - cloud.low).maxCoeff();
-  if (!std::isfinite(cloud.extent)) throw std::invalid_argument("the elements are too far apart for numbers of this size");
+  if (!std::isfinite(cloud.extent))
+    throw std::invalid_argument("the elements are too far apart for numbers of this size");
   return cloud;
 }
 
@@ -163,7 +165,8 @@ std::vector<Level> levels_of(const Cloud& cloud, std::size_t begin, std::size_t 
   std::vector<std::vector<Index>> members(max_levels);
   for (std::size_t i = begin; i < end; ++i) {
     const Real ratio = cloud.radius[i] > 0 ? largest / cloud.radius[i] : Real(1 << max_levels);
-    const int level = std::min(ratio < Real(1 << max_levels) ? std::ilogb(ratio) : max_levels, max_levels - 1);
+    const int level =
+        std::min(ratio < Real(1 << max_levels) ? std::ilogb(ratio) : max_levels, max_levels - 1);
     members[std::size_t(level)].push_back(static_cast<Index>(i));
   }
   std::vector<Level> levels;
@@ -210,12 +213,13 @@ std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_
 
 }  // namespace
 
-std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance, Real gap) {
+std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance,
+                             Real gap) {
   return find_pairs_around(position, radius, position.size(), tolerance, gap);
 }
 
-std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius, std::size_t moving,
-                                    Real tolerance, Real gap) {
+std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius,
+                                    std::size_t moving, Real tolerance, Real gap) {
   const Rule rule{tolerance, gap};
   check(position, radius, rule);
   const Cloud cloud = cloud_of(position, radius, rule);

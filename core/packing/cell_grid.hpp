@@ -1,6 +1,7 @@
 #pragma once
-// Which elements are near each other. Elements are sorted into cells of about their own size, one grid for each
-// doubling of the radius, so that a fibre of large elements among small ones does not make the cells large.
+// Which elements are near each other. Elements are sorted into cells of about their own size, one grid for
+// each doubling of the radius, so that a fibre of large elements among small ones does not make the cells
+// large.
 
 #include <span>
 #include <vector>
@@ -15,23 +16,26 @@ struct Pair {
   friend bool operator==(const Pair&, const Pair&) = default;
 };
 
-/// All pairs with |x_j - x_i| <= (1 + tolerance) (R_i + R_j) + gap, sorted by (i, j); the same list for any number of
-/// threads. Throws std::invalid_argument that names the first element whose position or radius is not finite, or
-/// whose radius is negative.
+/// All pairs with |x_j - x_i| <= (1 + tolerance) (R_i + R_j) + gap, sorted by (i, j); the same list for any
+/// number of threads. Throws std::invalid_argument that names the first element whose position or radius is
+/// not finite, or whose radius is negative.
 std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance = 0,
                              Real gap = 0);
 
-/// The same, without the pairs of two elements that both stand at `moving` or behind: obstacles, which may overlap.
-std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius, std::size_t moving,
-                                    Real tolerance = 0, Real gap = 0);
+/// The same, without the pairs of two elements that both stand at `moving` or behind: obstacles, which may
+/// overlap.
+std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius,
+                                    std::size_t moving, Real tolerance = 0, Real gap = 0);
 
-/// The neighbours of each element, both ways: those of element i are other[first[i]] ... other[first[i + 1] - 1],
-/// in rising order.
+/// The neighbours of each element, both ways: those of element i are other[first[i]] ... other[first[i + 1] -
+/// 1], in rising order.
 struct NeighbourList {
   std::vector<std::size_t> first;
   std::vector<Index> other;
 
-  std::span<const Index> of(std::size_t i) const { return {other.data() + first[i], first[i + 1] - first[i]}; }
+  std::span<const Index> of(std::size_t i) const {
+    return {other.data() + first[i], first[i + 1] - first[i]};
+  }
 };
 NeighbourList neighbours_of(std::span<const Pair> pairs, std::size_t elements);
 

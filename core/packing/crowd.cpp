@@ -18,7 +18,9 @@ Crowd crowd_of(const Packing& packing, std::vector<Index>& order) {
   crowd.moving = packing.position.size();
   crowd.ball.reserve(crowd.moving + packing.around.position.size());
   order = hilbert_order(packing.position);
-  const auto add = [&](const Vec3& x, Real r) { crowd.ball.push_back({(x - crowd.origin) / crowd.unit, r / crowd.unit}); };
+  const auto add = [&](const Vec3& x, Real r) {
+    crowd.ball.push_back({(x - crowd.origin) / crowd.unit, r / crowd.unit});
+  };
   for (const Index i : order) add(packing.position[i], packing.radius[i]);
   for (std::size_t k = 0; k < packing.around.position.size(); ++k)
     add(packing.around.position[k], packing.around.radius[k]);
@@ -69,9 +71,10 @@ const NeighbourList& Neighbours::of(const Crowd& crowd) {
     build(crowd);
     return list_;
   }
-  const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
-    for (std::size_t i = begin; i < end; ++i) largest.value = std::max(largest.value, change(crowd, i));
-  });
+  const Largest worst =
+      sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
+        for (std::size_t i = begin; i < end; ++i) largest.value = std::max(largest.value, change(crowd, i));
+      });
   return after(crowd, worst.value);
 }
 

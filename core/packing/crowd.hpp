@@ -1,6 +1,6 @@
 #pragma once
-// The elements while they are being arranged: moving ones first, obstacles behind them; lengths in units of the mean
-// radius, so that the numbers of the method do not depend on the units of the specimen.
+// The elements while they are being arranged: moving ones first, obstacles behind them; lengths in units of
+// the mean radius, so that the numbers of the method do not depend on the units of the specimen.
 
 #include <algorithm>
 #include <cstddef>

@@ -57,8 +57,8 @@ std::vector<Real> ContactEquations::remaining() const {
   return gap;
 }
 
-/// Each iteration is three passes, so that threads wait for each other three times only: the new direction is formed
-/// twice, once where the elements gather it and once where it is stored.
+/// Each iteration is three passes, so that threads wait for each other three times only: the new direction is
+/// formed twice, once where the elements gather it and once where it is stored.
 int ContactEquations::solve(const Damping& damping, Real reduction, int most) {
   const std::size_t n = contact_.size();
   std::vector<Real> lambda(n, 0), residual(n), scaled(n), direction(n, 0), image(n), inverse(n), extra(n);
@@ -69,7 +69,8 @@ int ContactEquations::solve(const Damping& damping, Real reduction, int most) {
   };
   Real rho = sum([&](std::size_t e) {
     const Contact& c = contact_[e];
-    const Real diagonal = 1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
+    const Real diagonal =
+        1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
     extra[e] = (c.gap > 0 ? damping.open : damping.overlapping) * diagonal;
     inverse[e] = 1 / (diagonal + extra[e]);
     residual[e] = -c.gap;

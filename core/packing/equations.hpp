@@ -21,20 +21,21 @@ struct Change {
   Real r;
 };
 
-/// How much of a gap may be left for a smaller change, relative to the diagonal: overlaps must go, open contacts
-/// should close if nothing stands against it.
+/// How much of a gap may be left for a smaller change, relative to the diagonal: overlaps must go, open
+/// contacts should close if nothing stands against it.
 struct Damping {
   Real overlapping;
   Real open;
 };
 
-/// A, one row a contact, and its products. A change of radius costs 1/compliance as much as a move; 0 holds it.
+/// A, one row a contact, and its products. A change of radius costs 1/compliance as much as a move; 0 holds
+/// it.
 class ContactEquations {
  public:
   ContactEquations(std::size_t moving, const std::vector<Contact>&, const std::vector<Real>& compliance);
 
-  /// The change with (A A^T + damping) lambda = -gap, change = A^T lambda, by conjugate gradients down to `reduction`
-  /// of the first residual. Returns the number of iterations.
+  /// The change with (A A^T + damping) lambda = -gap, change = A^T lambda, by conjugate gradients down to
+  /// `reduction` of the first residual. Returns the number of iterations.
   int solve(const Damping&, Real reduction, int most);
 
   const std::vector<Change>& change() const { return change_; }

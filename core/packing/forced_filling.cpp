@@ -10,13 +10,14 @@
 namespace beadwork::packing {
 namespace {
 
-constexpr Real skin = 0.35;            // of the mean radius
+constexpr Real skin = 0.35;  // of the mean radius
 constexpr int most_rounds = 40;
-constexpr Real most_overlap = 0.04;    // mean; beyond it elements are no longer spheres that touch
+constexpr Real most_overlap = 0.04;  // mean; beyond it elements are no longer spheres that touch
 
 void check(const ForcedFilling& rule) {
   if (!(std::isfinite(rule.coordination) && rule.coordination > 0))
-    throw std::invalid_argument("the coordination number must be positive, got " + std::to_string(rule.coordination));
+    throw std::invalid_argument("the coordination number must be positive, got " +
+                                std::to_string(rule.coordination));
   if (!(rule.tolerance >= 0 && rule.tolerance < 1))
     throw std::invalid_argument("the overlap tolerance must be at least 0 and below 1, got " +
                                 std::to_string(rule.tolerance));
@@ -24,12 +25,16 @@ void check(const ForcedFilling& rule) {
 
 /// Places as many of the waiting elements as the tolerance lets, each where there is the most room.
 std::size_t place_waiting(Packing& packing, Real tolerance, Random& random) {
-  const auto largest = [](const std::vector<Real>& r) { return r.empty() ? Real(0) : *std::max_element(r.begin(), r.end()); };
+  const auto largest = [](const std::vector<Real>& r) {
+    return r.empty() ? Real(0) : *std::max_element(r.begin(), r.end());
+  };
   InsertionGrid grid(packing.region, std::max(largest(packing.radius), largest(packing.waiting)));
-  for (std::size_t i = 0; i < packing.position.size(); ++i) grid.add({packing.position[i], packing.radius[i]});
+  for (std::size_t i = 0; i < packing.position.size(); ++i)
+    grid.add({packing.position[i], packing.radius[i]});
   for (std::size_t k = 0; k < packing.around.position.size(); ++k)
     grid.add_obstacle({packing.around.position[k], packing.around.radius[k]});
-  std::sort(packing.waiting.begin(), packing.waiting.end(), std::greater<>());  // the large ones need the best places
+  std::sort(packing.waiting.begin(), packing.waiting.end(),
+            std::greater<>());  // the large ones need the best places
   std::vector<Ball> placed;
   insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000}, random,
                    packing.waiting, placed);
@@ -56,7 +61,8 @@ void place_all(Packing& packing, Real tolerance) {
     if (round == most_rounds || (placed == 0 && round > 5))
       throw PackingFailure(std::to_string(packing.waiting.size()) + " of " +
                            std::to_string(packing.waiting.size() + packing.position.size()) +
-                           " elements found no place with an overlap of at most " + std::to_string(tolerance) +
+                           " elements found no place with an overlap of at most " +
+                           std::to_string(tolerance) +
                            " (R1 + R2): raise the overlap tolerance, or ask for fewer or smaller elements");
     rearrange(packing, 100);
   }
@@ -71,12 +77,12 @@ void place_all(Packing& packing, Real tolerance) {
   throw PackingFailure(out.str());
 }
 
-/// Radii grow or shrink together until the coordination number is that asked, or a little above; or until elements
-/// hardly overlap any more: a packing that holds has a coordination number below which it cannot go.
+/// Radii grow or shrink together until the coordination number is that asked, or a little above; or until
+/// elements hardly overlap any more: a packing that holds has a coordination number below which it cannot go.
 void reach_coordination(Crowd& crowd, Real asked) {
   constexpr Real band = 0.03;
-  constexpr Real slope = 90;         // recorded: dZ / d(ln R) near Z = 6.2
-  constexpr Real hardly = 3e-4;      // mean overlap / (R1 + R2)
+  constexpr Real slope = 90;     // recorded: dZ / d(ln R) near Z = 6.2
+  constexpr Real hardly = 3e-4;  // mean overlap / (R1 + R2)
   Neighbours neighbours(skin);
   Real gain = 1, before = 0, Z = 0, overlap = 0;
   for (int round = 0; round < most_rounds; ++round) {

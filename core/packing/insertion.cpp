@@ -80,7 +80,8 @@ bool InsertionGrid::clear_of_obstacles(const Vec3& x, Real margin) const {
 namespace {
 
 /// The roomiest of some random places for a radius.
-bool find_place(const InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random, Ball& ball) {
+bool find_place(const InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
+                Ball& ball) {
   Real best = -rule.tolerance;
   bool found = false;
   for (int k = 0; k < rule.choices; ++k) {

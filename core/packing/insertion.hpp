@@ -19,8 +19,8 @@ class InsertionGrid {
   void add(const Ball&);
   /// Obstacles may be much larger than a cell: each is entered in every cell from which it can be touched.
   void add_obstacle(const Ball&);
-  /// Smallest gap / (R1 + R2) between the ball and the others near it, at most 1; any number below `least` if it is
-  /// below `least`.
+  /// Smallest gap / (R1 + R2) between the ball and the others near it, at most 1; any number below `least` if
+  /// it is below `least`.
   Real clearance(const Ball&, Real least) const;
   /// Whether x is at least `margin` outside every obstacle; the margin is at most the largest radius.
   bool clear_of_obstacles(const Vec3& x, Real margin) const;
@@ -29,7 +29,8 @@ class InsertionGrid {
   std::size_t cell_of(const Vec3& x) const { return flat(place_of(x)); }
   Eigen::Vector3i place_of(const Vec3& x) const;
   std::size_t flat(const Eigen::Vector3i& c) const {
-    return (std::size_t(c[2]) * std::size_t(cells_[1]) + std::size_t(c[1])) * std::size_t(cells_[0]) + std::size_t(c[0]);
+    return (std::size_t(c[2]) * std::size_t(cells_[1]) + std::size_t(c[1])) * std::size_t(cells_[0]) +
+           std::size_t(c[0]);
   }
   std::span<const Ball> obstacles_at(std::size_t cell) const {
     if (obstacles_.empty()) return {};
@@ -55,8 +56,8 @@ struct InsertionRule {
   int tries = 20000;   ///< ends after so many goes in a row found no place
 };
 
-/// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed` and entered
-/// in the grid; `radii` keeps the others.
+/// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed`
+/// and entered in the grid; `radii` keeps the others.
 void insert_at_random(InsertionGrid&, const Region&, const InsertionRule&, Random&, std::vector<Real>& radii,
                       std::vector<Ball>& placed);
 

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int bits_per_axis = 21;
 
-/// Skilling's transform (AIP Conf. Proc. 707, 381, 2004): cell coordinates to the transposed Hilbert index, in place.
+/// Skilling's transform (AIP Conf. Proc. 707, 381, 2004): cell coordinates to the transposed Hilbert index,
+/// in place.
 void to_hilbert(std::array<std::uint32_t, 3>& x) {
   for (std::uint32_t q = 1u << (bits_per_axis - 1); q > 1; q >>= 1) {
     const std::uint32_t p = q - 1;

@@ -10,8 +10,9 @@ struct Order {
   Real crystalline = 0;  ///< share of the elements with 7 or more neighbours of correlation above .7
 };
 
-/// ten Wolde, Ruiz-Montero and Frenkel, J. Chem. Phys. 104, 9932 (1996), with l = 6. Instead of spherical harmonics
-/// their addition theorem is used: the product of two elements is the mean of P6(cos) over pairs of their directions.
+/// ten Wolde, Ruiz-Montero and Frenkel, J. Chem. Phys. 104, 9932 (1996), with l = 6. Instead of spherical
+/// harmonics their addition theorem is used: the product of two elements is the mean of P6(cos) over pairs of
+/// their directions.
 Order bond_order(const Crowd&);
 
 }  // namespace beadwork::packing

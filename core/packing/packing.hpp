@@ -1,12 +1,13 @@
 #pragma once
 // Filling a volume with elements in the paper's three steps (section 2.2.2), each a function on a Packing:
 //
-//   Packing packing = free_filling(request);   // at random, without interpenetration, until nothing more fits
-//   forced_filling(packing, {...});            // the rest with interpenetration, re-arranged, until Z is reached
-//   relaxation(packing, {...});                // interpenetration down to round-off, elements inside the walls
+//   Packing packing = free_filling(request);   // at random, without interpenetration, until nothing more
+//   fits forced_filling(packing, {...});            // the rest with interpenetration, re-arranged, until Z
+//   is reached relaxation(packing, {...});                // interpenetration down to round-off, elements
+//   inside the walls
 //
-// The method and its measured figures: docs/theory/packing.md. All results are the same to the bit for any number of
-// threads. Lengths are in any one unit.
+// The method and its measured figures: docs/theory/packing.md. All results are the same to the bit for any
+// number of threads. Lengths are in any one unit.
 
 #include <cstdint>
 #include <optional>
@@ -34,8 +35,8 @@ struct Obstacles {
 
 struct Request {
   Region region;
-  /// Exactly one of the two: the mean radius follows from the count (which then comes out exactly), or the count from
-  /// the mean radius (which then comes out within 2 %).
+  /// Exactly one of the two: the mean radius follows from the count (which then comes out exactly), or the
+  /// count from the mean radius (which then comes out within 2 %).
   std::optional<std::int64_t> count;
   std::optional<Real> mean_radius;
   Dispersion dispersion;
@@ -64,14 +65,15 @@ struct ForcedFilling {
   Real coordination = 6.2;  ///< contacts of an element with other elements, mean over all elements
   Real tolerance = 0.3;     ///< largest overlap / (R1 + R2) of an element when it is inserted
 };
-/// Places the waiting elements and re-arranges all; then all radii grow or shrink by one common factor until the
-/// coordination number is reached.
+/// Places the waiting elements and re-arranges all; then all radii grow or shrink by one common factor until
+/// the coordination number is reached.
 void forced_filling(Packing&, const ForcedFilling& = {});
 
 struct Relaxation {
-  Real overlap = 1e-7;        ///< largest overlap / (R1 + R2) that may be left, walls included
-  /// Each radius may change by this share beside the common factor, and by a fifth of the spread at most; it stays in
-  /// the law's range. 0: all radii by one common factor only, which leaves the contacts of a jammed packing (Z near 6).
+  Real overlap = 1e-7;  ///< largest overlap / (R1 + R2) that may be left, walls included
+  /// Each radius may change by this share beside the common factor, and by a fifth of the spread at most; it
+  /// stays in the law's range. 0: all radii by one common factor only, which leaves the contacts of a jammed
+  /// packing (Z near 6).
   Real radius_change = 0.05;
 };
 /// The contacts stay, their overlap goes: places and radii change a little until neighbours just touch.

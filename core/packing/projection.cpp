@@ -15,7 +15,8 @@ constexpr int most_rounds = 60;
 constexpr int gentle_rounds = 3;
 constexpr Real gentle_share = 0.5;
 constexpr Damping damping{.overlapping = 1e-3, .open = 2e-3};
-constexpr Real radius_compliance = 0.2;  // radii give way less than places; recorded: the least iterations near 0.1-0.3
+constexpr Real radius_compliance =
+    0.2;  // radii give way less than places; recorded: the least iterations near 0.1-0.3
 
 /// A pair of elements, or an element and -1 - wall.
 struct Key {
@@ -75,8 +76,8 @@ class Allowance {
 
   const std::vector<Real>& compliance() const { return compliance_; }
 
-  /// Puts radii that left their bounds back on them. The nearer a radius has come to the change it is allowed, the less
-  /// it gives way in the next round; one at the end of the law's range is held.
+  /// Puts radii that left their bounds back on them. The nearer a radius has come to the change it is
+  /// allowed, the less it gives way in the next round; one at the end of the law's range is held.
   void apply(Crowd& crowd) { apply(crowd.ball, mean_radius(crowd), crowd.ball.data()); }
 
  private:
@@ -136,7 +137,8 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
     if (found.largest <= overlap || result.rounds == most_rounds) return result;
     std::sort(found.keys.begin(), found.keys.end());
     std::vector<Key> keys;
-    std::set_union(known.begin(), known.end(), found.keys.begin(), found.keys.end(), std::back_inserter(keys));
+    std::set_union(known.begin(), known.end(), found.keys.begin(), found.keys.end(),
+                   std::back_inserter(keys));
     std::vector<Contact> contacts(keys.size());
     for_each(keys.size(), [&](std::size_t e) { contacts[e] = contact_of(crowd, keys[e]); });
     ContactEquations equations(crowd.moving, contacts, allowance.compliance());

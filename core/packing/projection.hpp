@@ -18,10 +18,11 @@ struct Projected {
   Real largest = 0;    ///< overlap / (R1 + R2) that is left
 };
 
-/// Each contact is one equation, gap(x_i, x_j, R_i, R_j) = 0. With positions and radii as unknowns there are more
-/// unknowns (4 an element) than contacts (about 3.3 an element), and Newton's method with the smallest change that
-/// solves the linear equations converges in a few rounds. A pair that comes to overlap on the way joins the equations;
-/// a contact that opens and cannot be closed, since too many others hold its elements, is given up.
+/// Each contact is one equation, gap(x_i, x_j, R_i, R_j) = 0. With positions and radii as unknowns there are
+/// more unknowns (4 an element) than contacts (about 3.3 an element), and Newton's method with the smallest
+/// change that solves the linear equations converges in a few rounds. A pair that comes to overlap on the way
+/// joins the equations; a contact that opens and cannot be closed, since too many others hold its elements,
+/// is given up.
 Projected project(Crowd&, Neighbours&, const RadiusBounds&, Real overlap);
 
 }  // namespace beadwork::packing

@@ -11,8 +11,8 @@ namespace beadwork::packing {
 
 enum class RadiusLaw { uniform, truncated_gaussian };
 
-/// Radii lie in [1 - spread, 1 + spread] times the mean. The Gaussian has the given standard deviation (relative to
-/// the mean) before it is cut at both ends.
+/// Radii lie in [1 - spread, 1 + spread] times the mean. The Gaussian has the given standard deviation
+/// (relative to the mean) before it is cut at both ends.
 struct Dispersion {
   RadiusLaw law = RadiusLaw::uniform;
   Real spread = 0.25;
@@ -22,8 +22,8 @@ struct Dispersion {
 /// Throws std::invalid_argument unless 0 <= spread < 1 and the deviation is positive.
 void check(const Dispersion&);
 
-/// `count` radii with mean 1, in the order drawn. The sample is stratified: one radius in each of `count` equally
-/// likely classes, shuffled; so mean and histogram of a small specimen are those of the law.
+/// `count` radii with mean 1, in the order drawn. The sample is stratified: one radius in each of `count`
+/// equally likely classes, shuffled; so mean and histogram of a small specimen are those of the law.
 std::vector<Real> draw_radii(const Dispersion&, std::size_t count, std::uint64_t seed);
 
 /// Share of radii below r (mean 1).

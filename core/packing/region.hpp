@@ -64,10 +64,11 @@ class Walls {
 Real volume(const Region&);
 /// Radius of the largest sphere that fits.
 Real inradius(const Region&);
-/// A point of the region from three numbers in [0, 1), uniform over its volume; with a margin, over the part whose
-/// distance from every wall is at least the margin.
+/// A point of the region from three numbers in [0, 1), uniform over its volume; with a margin, over the part
+/// whose distance from every wall is at least the margin.
 Vec3 point_in(const Region&, const Vec3& unit, Real margin = 0);
-/// The part of the region whose distance from every wall is at least the margin; the margin is below the inradius.
+/// The part of the region whose distance from every wall is at least the margin; the margin is below the
+/// inradius.
 Region shrunk(const Region&, Real margin);
 /// The smallest box along the axes that holds the region.
 Box bounds(const Region&);

@@ -19,30 +19,34 @@ void check(const Relaxation& rule) {
     throw std::invalid_argument("the overlap that relaxation may leave must be positive, got " +
                                 std::to_string(rule.overlap));
   if (!(rule.radius_change >= 0 && rule.radius_change < 0.5))
-    throw std::invalid_argument("the share by which relaxation may change a radius must be at least 0 and below 0.5, got " +
-                                std::to_string(rule.radius_change));
+    throw std::invalid_argument(
+        "the share by which relaxation may change a radius must be at least 0 and below 0.5, got " +
+        std::to_string(rule.radius_change));
 }
 
 /// The share by which all radii must shrink for the last overlap to vanish.
 Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
   const NeighbourList& list = neighbours.of(crowd);
-  return sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
-           for (std::size_t i = begin; i < end; ++i) {
-             const Ball& a = crowd.ball[i];
-             for (std::size_t w = 0; w < crowd.walls.size(); ++w)
-               largest.value = std::max(largest.value, 1 - crowd.walls.view(w, a.x).distance / a.r);
-             for (const Index j : list.of(i)) {
-               const Ball& b = crowd.ball[std::size_t(j)];
-               const Real overlap = a.r + b.r - (b.x - a.x).norm();
-               largest.value = std::max(largest.value, overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
-             }
-           }
-         })
+  return sum_in_blocks<Largest>(
+             crowd.moving,
+             [&](std::size_t begin, std::size_t end, Largest& largest) {
+               for (std::size_t i = begin; i < end; ++i) {
+                 const Ball& a = crowd.ball[i];
+                 for (std::size_t w = 0; w < crowd.walls.size(); ++w)
+                   largest.value = std::max(largest.value, 1 - crowd.walls.view(w, a.x).distance / a.r);
+                 for (const Index j : list.of(i)) {
+                   const Ball& b = crowd.ball[std::size_t(j)];
+                   const Real overlap = a.r + b.r - (b.x - a.x).norm();
+                   largest.value =
+                       std::max(largest.value, overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
+                 }
+               }
+             })
       .value;
 }
 
-/// Radii shrink together, each time by a little more than the mean overlap, and the forces balance again: the overlap
-/// falls in proportion to the distance from the jamming point.
+/// Radii shrink together, each time by a little more than the mean overlap, and the forces balance again: the
+/// overlap falls in proportion to the distance from the jamming point.
 void decompress(Crowd& crowd, Neighbours& neighbours) {
   constexpr Real small = 2e-5;
   for (int round = 0; round < 15; ++round) {
@@ -71,15 +75,17 @@ void warn_of_lost_contacts(Packing& packing, const Crowd& crowd, Real before) {
   const Real after = coordination_with_gap(crowd);
   if (after < before - 0.05)
     warn(packing, "relaxation lowered the coordination number from ", before, " to ", after,
-         " (gaps up to .001 counted); let the radii change more, widen the spread, or ask for less to begin with");
+         " (gaps up to .001 counted); let the radii change more, widen the spread, or ask for less to begin "
+         "with");
 }
 
 void warn_of_crystal(Packing& packing, const Crowd& crowd) {
   constexpr Real narrow = 0.05, many = 0.02;
   const Order order = bond_order(crowd);
   if (packing.dispersion.spread >= narrow && order.crystalline <= many) return;
-  warn(packing, "a spread of the radii of ", packing.dispersion.spread, " lets elements crystallise: ",
-       100 * order.crystalline, " % have the surroundings of a crystal (below .1 % at a spread of .25); the solid is ",
+  warn(packing, "a spread of the radii of ", packing.dispersion.spread,
+       " lets elements crystallise: ", 100 * order.crystalline,
+       " % have the surroundings of a crystal (below .1 % at a spread of .25); the solid is ",
        "then not isotropic; use a spread of .1 or more");
 }
 
@@ -88,8 +94,8 @@ void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighb
   if (left <= goal) return;
   scale_radii(crowd, 1 - left);
   if (left > 1e-3)
-    warn(packing, "relaxation left an overlap of ", left, " (R1 + R2): all radii were reduced by that share, which ",
-         "opened contacts");
+    warn(packing, "relaxation left an overlap of ", left,
+         " (R1 + R2): all radii were reduced by that share, which ", "opened contacts");
 }
 
 }  // namespace
@@ -97,7 +103,8 @@ void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighb
 void relaxation(Packing& packing, const Relaxation& rule) {
   const auto start = std::chrono::steady_clock::now();
   check(rule);
-  if (packing.position.empty()) throw std::invalid_argument("there are no elements to relax: free filling comes first");
+  if (packing.position.empty())
+    throw std::invalid_argument("there are no elements to relax: free filling comes first");
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
   Neighbours neighbours(skin);

@@ -17,7 +17,7 @@ namespace beadwork::packing {
 namespace {
 
 constexpr Real touching_gap = 1e-6;
-constexpr Real bulk_margin = 3;  // mean radii
+constexpr Real bulk_margin = 3;    // mean radii
 constexpr int rigid_contacts = 4;  // fewer cannot hold a sphere in three dimensions
 
 /// gap / (R1 + R2) of a pair.
@@ -35,7 +35,8 @@ std::vector<Pair> contacts_within(const Crowd& crowd, const std::vector<Pair>& n
 
 std::vector<char> bulk_of(const Crowd& crowd) {
   std::vector<char> bulk(crowd.moving);
-  for (std::size_t i = 0; i < crowd.moving; ++i) bulk[i] = crowd.walls.distance(crowd.ball[i].x) > bulk_margin;
+  for (std::size_t i = 0; i < crowd.moving; ++i)
+    bulk[i] = crowd.walls.distance(crowd.ball[i].x) > bulk_margin;
   if (crowd.ball.size() == crowd.moving) return bulk;
   for (const Pair& p : near_pairs(crowd, bulk_margin))
     if (std::size_t(p.j) >= crowd.moving) {
@@ -45,7 +46,8 @@ std::vector<char> bulk_of(const Crowd& crowd) {
   return bulk;
 }
 
-/// Elements that are not held: fewer than four contacts with walls and with elements that are held themselves.
+/// Elements that are not held: fewer than four contacts with walls and with elements that are held
+/// themselves.
 std::vector<char> rattlers_of(const Crowd& crowd, const std::vector<Pair>& contacts, Real tolerance) {
   const NeighbourList list = neighbours_of(contacts, crowd.ball.size());
   std::vector<int> held(crowd.moving, 0);
@@ -69,9 +71,11 @@ std::vector<char> rattlers_of(const Crowd& crowd, const std::vector<Pair>& conta
   return loose;
 }
 
-/// Mean number of contacts of the elements that `counts` accepts, with those that `with` accepts and with obstacles.
+/// Mean number of contacts of the elements that `counts` accepts, with those that `with` accepts and with
+/// obstacles.
 template <class Counts, class With>
-Real mean_contacts(const Crowd& crowd, const std::vector<Pair>& contacts, const Counts& counts, const With& with) {
+Real mean_contacts(const Crowd& crowd, const std::vector<Pair>& contacts, const Counts& counts,
+                   const With& with) {
   std::size_t elements = 0, ends = 0;
   for (std::size_t i = 0; i < crowd.moving; ++i) elements += counts(i);
   const auto accepted = [&](std::size_t i) { return i >= crowd.moving || with(i); };
@@ -83,8 +87,8 @@ Real mean_contacts(const Crowd& crowd, const std::vector<Pair>& contacts, const 
   return elements ? Real(ends) / Real(elements) : 0;
 }
 
-Coordination coordination_of(const Crowd& crowd, const std::vector<Pair>& contacts, const std::vector<char>& loose,
-                             const std::vector<char>& bulk) {
+Coordination coordination_of(const Crowd& crowd, const std::vector<Pair>& contacts,
+                             const std::vector<char>& loose, const std::vector<char>& bulk) {
   const auto any = [](std::size_t) { return true; };
   const auto held = [&](std::size_t i) { return !loose[i]; };
   const auto inside = [&](std::size_t i) { return bulk[i] != 0; };
@@ -92,8 +96,8 @@ Coordination coordination_of(const Crowd& crowd, const std::vector<Pair>& contac
           mean_contacts(crowd, contacts, inside, any)};
 }
 
-/// Eigenvalues of <n n> over the contacts of the elements that `counts` accepts, each contact once for each of its ends:
-/// leaving out contacts that cross the border would favour directions along it.
+/// Eigenvalues of <n n> over the contacts of the elements that `counts` accepts, each contact once for each
+/// of its ends: leaving out contacts that cross the border would favour directions along it.
 template <class Counts>
 std::array<Real, 3> fabric_of(const Crowd& crowd, const std::vector<Pair>& contacts, const Counts& counts) {
   Mat3 sum = Mat3::Zero();
@@ -165,7 +169,8 @@ Real density_in_bulk(const Packing& packing, Real margin) {
   if (packing.radius.empty() || margin >= inradius(packing.region)) return 0;
   constexpr std::uint64_t points = 300000;
   InsertionGrid elements(packing.region, *std::max_element(packing.radius.begin(), packing.radius.end()));
-  for (std::size_t i = 0; i < packing.radius.size(); ++i) elements.add({packing.position[i], packing.radius[i]});
+  for (std::size_t i = 0; i < packing.radius.size(); ++i)
+    elements.add({packing.position[i], packing.radius[i]});
   InsertionGrid obstacles(packing.region, std::max(margin, inradius(packing.region) / 20));
   for (std::size_t k = 0; k < packing.around.radius.size(); ++k)
     obstacles.add_obstacle({packing.around.position[k], packing.around.radius[k]});
@@ -201,7 +206,8 @@ PackingReport report(const Packing& packing, Real tolerance) {
   report_radii(packing, r);
   std::vector<Index> order;
   const Crowd crowd = crowd_of(packing, order);
-  const auto near = contacts_within(crowd, near_pairs(crowd, tolerance * 2 * r.max_radius / r.mean_radius), tolerance);
+  const auto near =
+      contacts_within(crowd, near_pairs(crowd, tolerance * 2 * r.max_radius / r.mean_radius), tolerance);
   const auto touching = contacts_within(crowd, near, touching_gap);
   const auto bulk = bulk_of(crowd);
   const auto loose = rattlers_of(crowd, touching, touching_gap);

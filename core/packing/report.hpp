@@ -14,31 +14,32 @@ namespace beadwork::packing {
 /// Contacts of an element with other elements (obstacles included, walls not), mean over the elements.
 struct Coordination {
   Real all = 0;
-  Real without_rattlers = 0;  ///< rattlers: elements with fewer than four contacts, walls included, found repeatedly
-  Real bulk = 0;              ///< over the elements farther than 3 mean radii from the walls
+  Real without_rattlers =
+      0;          ///< rattlers: elements with fewer than four contacts, walls included, found repeatedly
+  Real bulk = 0;  ///< over the elements farther than 3 mean radii from the walls
 };
 
 struct PackingReport {
   std::size_t count = 0;
   std::uint64_t seed = 0;
   Real seconds = 0;
-  Coordination touching;       ///< gap <= 1e-6 (R1 + R2)
-  Coordination near;           ///< gap <= tolerance (R1 + R2): what bonds are made of
+  Coordination touching;  ///< gap <= 1e-6 (R1 + R2)
+  Coordination near;      ///< gap <= tolerance (R1 + R2): what bonds are made of
   Real tolerance = 0;
-  Real rattlers = 0;           ///< share of the elements
-  Real wall_contacts = 0;      ///< contacts with walls per element
-  Real max_overlap = 0;        ///< overlap / (R1 + R2), over all pairs and, over R, all walls
-  Real mean_overlap = 0;       ///< over the pairs that overlap
-  std::array<Real, 3> fabric{};       ///< eigenvalues of <n n> over the near contacts, rising; their sum is 1
+  Real rattlers = 0;             ///< share of the elements
+  Real wall_contacts = 0;        ///< contacts with walls per element
+  Real max_overlap = 0;          ///< overlap / (R1 + R2), over all pairs and, over R, all walls
+  Real mean_overlap = 0;         ///< over the pairs that overlap
+  std::array<Real, 3> fabric{};  ///< eigenvalues of <n n> over the near contacts, rising; their sum is 1
   std::array<Real, 3> fabric_bulk{};
-  Real density = 0;            ///< volume of the elements / volume of the region outside the obstacles
-  Real density_bulk = 0;       ///< volume fraction farther than 3 mean radii from walls and obstacles
+  Real density = 0;       ///< volume of the elements / volume of the region outside the obstacles
+  Real density_bulk = 0;  ///< volume fraction farther than 3 mean radii from walls and obstacles
   std::size_t bulk_count = 0;
   Real mean_radius = 0, min_radius = 0, max_radius = 0;
-  std::vector<Real> histogram_edges;      ///< R / mean R
+  std::vector<Real> histogram_edges;  ///< R / mean R
   std::vector<std::size_t> histogram;
-  Real kolmogorov = 0;         ///< distance of the radii from the law asked for
-  Real bond_order = 0;         ///< mean correlation of the bond directions of neighbours (l = 6): 1 in a crystal
+  Real kolmogorov = 0;  ///< distance of the radii from the law asked for
+  Real bond_order = 0;  ///< mean correlation of the bond directions of neighbours (l = 6): 1 in a crystal
   Real crystalline_share = 0;  ///< elements whose surroundings agree with those of 7 neighbours or more
 };
 
@@ -48,8 +49,8 @@ PackingReport report(const Packing&, Real tolerance = 1e-3);
 /// Which elements are farther than `margin` from every wall of the region.
 std::vector<char> in_bulk(const Region&, std::span<const Vec3> position, Real margin);
 
-/// Share of the volume farther than `margin` from walls and obstacles that lies in elements; 0 if there is no such
-/// volume. Counted on evenly spread points: good to about .001.
+/// Share of the volume farther than `margin` from walls and obstacles that lies in elements; 0 if there is no
+/// such volume. Counted on evenly spread points: good to about .001.
 Real density_in_bulk(const Packing&, Real margin);
 
 /// The packing that stored positions and radii make, to be reported on.

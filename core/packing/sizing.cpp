@@ -11,8 +11,8 @@
 namespace beadwork::packing {
 namespace {
 
-// Recorded: packings of spread .25 at Z = 6.2 end within 1.5 % of the radius that these two figures give, between
-// 5 and 100 elements across.
+// Recorded: packings of spread .25 at Z = 6.2 end within 1.5 % of the radius that these two figures give,
+// between 5 and 100 elements across.
 constexpr Real bulk_density = 0.65;
 constexpr Real empty_layer = 0.15;
 
@@ -31,7 +31,8 @@ Real share_clear(const Region& region, const Obstacles& around, Real margin) {
   constexpr std::uint64_t points = 100000;
   // Cells need not be as small as the margin where the region is large.
   InsertionGrid grid(region, std::max(margin, inradius(region) / 20));
-  for (std::size_t k = 0; k < around.position.size(); ++k) grid.add_obstacle({around.position[k], around.radius[k]});
+  for (std::size_t k = 0; k < around.position.size(); ++k)
+    grid.add_obstacle({around.position[k], around.radius[k]});
   std::uint64_t clear = 0;
 #pragma omp parallel for schedule(static) reduction(+ : clear)
   for (std::uint64_t k = 0; k < points; ++k) {
@@ -51,11 +52,13 @@ void check(const Request& q) {
   }
   if (!q.count && !q.mean_radius) refuse("neither the count nor the mean radius of the elements is given");
   if (q.count && *q.count < 1) refuse(text("the count of elements must be at least 1, got ", *q.count));
-  if (q.count && Real(*q.count) > most_elements) refuse(text("the count of elements must be at most 1e8, got ", *q.count));
+  if (q.count && Real(*q.count) > most_elements)
+    refuse(text("the count of elements must be at most 1e8, got ", *q.count));
   if (q.mean_radius && !(std::isfinite(*q.mean_radius) && *q.mean_radius > 0))
     refuse(text("the mean radius must be positive, got ", *q.mean_radius));
   if (q.tries < 1) refuse(text("the number of tries must be at least 1, got ", q.tries));
-  if (q.around.position.size() != q.around.radius.size()) refuse("obstacles need one radius for each position");
+  if (q.around.position.size() != q.around.radius.size())
+    refuse("obstacles need one radius for each position");
   for (std::size_t k = 0; k < q.around.position.size(); ++k)
     if (!q.around.position[k].allFinite() || !(std::isfinite(q.around.radius[k]) && q.around.radius[k] >= 0))
       refuse(text("obstacle ", k, " has a position or radius that is negative or not finite"));
@@ -71,8 +74,11 @@ Sizing from_mean_radius(const Request& q) {
   const Real room = effective_volume(q.region, q.around, empty_layer * R);
   const Real count = bulk_density * room / (4.0 / 3 * std::numbers::pi * R * R * R * mean_cube(q.dispersion));
   if (count > most_elements)
-    refuse(text("elements of mean radius ", R, " would number ", count, "; at most 1e8 are possible: enlarge the radius"));
-  if (count < 0.5) throw PackingFailure("the obstacles leave no room for an element: remove some, or make the mean radius smaller");
+    refuse(text("elements of mean radius ", R, " would number ", count,
+                "; at most 1e8 are possible: enlarge the radius"));
+  if (count < 0.5)
+    throw PackingFailure(
+        "the obstacles leave no room for an element: remove some, or make the mean radius smaller");
   return {static_cast<std::size_t>(std::lround(count)), R};
 }
 
@@ -86,7 +92,8 @@ Sizing from_count(const Request& q) {
     R = std::min(R, largest_fitting(q));
     if (std::abs(R - before) < 1e-3 * before) break;
   }
-  if (!(R > 0)) throw PackingFailure("the obstacles leave no room for an element: remove some, or enlarge the region");
+  if (!(R > 0))
+    throw PackingFailure("the obstacles leave no room for an element: remove some, or enlarge the region");
   return {static_cast<std::size_t>(*q.count), R};
 }
 
@@ -98,7 +105,9 @@ Real effective_volume(const Region& region, const Obstacles& around, Real layer)
   return volume(inner) * (around.position.empty() ? 1 : share_clear(inner, around, layer));
 }
 
-Real free_volume(const Region& region, const Obstacles& around) { return effective_volume(region, around, 0); }
+Real free_volume(const Region& region, const Obstacles& around) {
+  return effective_volume(region, around, 0);
+}
 
 Sizing sizing_of(const Request& q) {
   check(q);

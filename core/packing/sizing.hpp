@@ -15,8 +15,8 @@ struct Sizing {
 /// Throws std::invalid_argument on a malformed request, PackingFailure if there is no room.
 Sizing sizing_of(const Request&);
 
-/// Volume that behaves as if it were filled to the density of the bulk: next to walls and obstacles a layer of
-/// `share` of the radius counts as empty.
+/// Volume that behaves as if it were filled to the density of the bulk: next to walls and obstacles a layer
+/// of `share` of the radius counts as empty.
 Real effective_volume(const Region&, const Obstacles&, Real layer);
 
 /// Volume of the region outside the obstacles.

@@ -49,7 +49,8 @@ const Packing& example() {
   return packing;
 }
 
-Real deepest_overlap(const Packing& p, const std::vector<Vec3>& x, const std::vector<Real>& r, std::size_t moving) {
+Real deepest_overlap(const Packing& p, const std::vector<Vec3>& x, const std::vector<Real>& r,
+                     std::size_t moving) {
   Real deepest = 0;
   for (const Pair& pair : find_pairs_around(x, r, moving)) {
     const auto i = std::size_t(pair.i), j = std::size_t(pair.j);
@@ -137,12 +138,13 @@ TEST(Packing, leaves_obstacles_alone_and_does_not_touch_them_deeper_than_allowed
     request.around.radius.push_back(0.18);
   }
   Packing p = free_filling(request);
-  const auto with_obstacles = [&p](auto all, const auto& obstacles) {
+  const auto with_obstacles = [](auto all, const auto& obstacles) {
     all.insert(all.end(), obstacles.begin(), obstacles.end());
     return all;
   };
   EXPECT_EQ(deepest_overlap(p, with_obstacles(p.position, p.around.position),
-                            with_obstacles(p.radius, p.around.radius), p.position.size()), 0);
+                            with_obstacles(p.radius, p.around.radius), p.position.size()),
+            0);
   forced_filling(p);
   relaxation(p);
   const auto x = with_obstacles(p.position, p.around.position);
@@ -285,10 +287,18 @@ TEST(Packing, refuses_requests_that_make_no_sense) {
   EXPECT_THAT(message([](Request& q) { q.count = 2'000'000'000; }), HasSubstr("at most 1e8"));
   EXPECT_THAT(message([](Request& q) { q.dispersion.spread = 1; }), HasSubstr("spread of the radii"));
   EXPECT_THAT(message([](Request& q) { q.dispersion.spread = -0.1; }), HasSubstr("spread of the radii"));
-  EXPECT_THAT(message([](Request& q) { q.dispersion = {RadiusLaw::truncated_gaussian, 0.2, 0}; }),
+  EXPECT_THAT(message([](Request& q) {
+                q.dispersion = {RadiusLaw::truncated_gaussian, 0.2, 0};
+              }),
               HasSubstr("standard deviation"));
-  EXPECT_THAT(message([](Request& q) { q.region = Box{{0, 0, 0}, {1, 0, 1}}; }), HasSubstr("box to be filled is empty"));
-  EXPECT_THAT(message([](Request& q) { q.region = Cylinder{{0, 0, 0}, {0, 0, 0}, 1}; }), HasSubstr("cylinder"));
+  EXPECT_THAT(message([](Request& q) {
+                q.region = Box{{0, 0, 0}, {1, 0, 1}};
+              }),
+              HasSubstr("box to be filled is empty"));
+  EXPECT_THAT(message([](Request& q) {
+                q.region = Cylinder{{0, 0, 0}, {0, 0, 0}, 1};
+              }),
+              HasSubstr("cylinder"));
   EXPECT_THAT(message([](Request& q) { q.tries = 0; }), HasSubstr("number of tries"));
   EXPECT_THAT(message([](Request& q) { q.around = {{{0, std::nan(""), 0}}, {1}}; }), HasSubstr("obstacle 0"));
   const auto with_radius = [&](Real R) {
@@ -361,7 +371,8 @@ Packing face_centred_cubic(int cells) {
   const Vec3 edge = Vec3::Constant(a * cells);
   const Vec3 shift = Vec3::Constant(-a / 4);  // the lattice in the middle of its box
   std::vector<Real> radius(position.size(), 1);
-  return packing_of(Box{shift, edge + shift}, {RadiusLaw::uniform, 0, 0}, std::move(position), std::move(radius));
+  return packing_of(Box{shift, edge + shift}, {RadiusLaw::uniform, 0, 0}, std::move(position),
+                    std::move(radius));
 }
 
 TEST(PackingReport, knows_a_face_centred_cubic_crystal) {
@@ -378,7 +389,8 @@ TEST(PackingReport, knows_a_face_centred_cubic_crystal) {
 
 TEST(PackingReport, counts_without_rattlers_and_without_those_that_rattle_when_these_are_gone) {
   // A chain of three spheres in a wide box holds nobody: each link is loose once its end is.
-  const Packing chain = packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {1, 1, 1});
+  const Packing chain =
+      packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {1, 1, 1});
   const PackingReport r = report(chain);
   EXPECT_NEAR(r.touching.all, 4.0 / 3, 1e-12);
   EXPECT_EQ(r.touching.without_rattlers, 0);
@@ -387,7 +399,8 @@ TEST(PackingReport, counts_without_rattlers_and_without_those_that_rattle_when_t
 }
 
 TEST(PackingReport, tells_touching_contacts_from_near_ones_and_measures_overlap) {
-  const Packing p = packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2.001, 0, 0}, {0, 1.9, 0}}, {1, 1, 1});
+  const Packing p =
+      packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2.001, 0, 0}, {0, 1.9, 0}}, {1, 1, 1});
   const PackingReport r = report(p, 1e-3);
   EXPECT_NEAR(r.touching.all, 2.0 / 3, 1e-12);
   EXPECT_NEAR(r.near.all, 4.0 / 3, 1e-12);
