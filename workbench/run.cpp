@@ -87,7 +87,8 @@ int run(const RunArguments& arguments) {
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
 
-  log->info("beadwork {} runs {} on {} threads into {}", version, arguments.deck.path, options.threads, arguments.out);
+  log->info("beadwork {} runs {} on {} threads ({} instructions) into {}", version, arguments.deck.path, options.threads,
+            loaded.catalogue.instructions(), arguments.out);
   for (const Library& library : loaded.catalogue.libraries()) log->debug("plugins: {} ({})", library.path.string(), library.version);
   Run job(*loaded.scene, loaded.catalogue, folder, options);
   try {

@@ -21,6 +21,12 @@ struct Softening {
   T open;       ///< u_p > u_e, where nothing holds any more [m]
 };
 
+/// The same law for numbers of type T.
+template <class T>
+[[gnu::always_inline]] inline Softening<T> as(const Softening<Real>& law) {
+  return {T(law.stiffness), T(law.onset), T(law.open)};
+}
+
 /// 1 - d. Exactly 1 up to the onset, exactly 0 from u_p on.
 template <class T>
 [[gnu::always_inline]] inline T soundness(const Softening<T>& law, Same<T> history) {
@@ -153,6 +159,11 @@ template <class T>
 struct CohesiveLaws {
   Softening<T> normal, shear;
 };
+
+template <class T>
+[[gnu::always_inline]] inline CohesiveLaws<T> as(const CohesiveLaws<Real>& laws) {
+  return {as<T>(laws.normal), as<T>(laws.shear)};
+}
 
 /// Where the contact stands: u = c2 - c1 of the two carried points, split along n = d/l.
 template <class T>

@@ -6,14 +6,16 @@
 //   template <class At, class T> T stored(const At& at, const Ends<T>& ends) const;      // recoverable energy [J]
 //   template <class At> auto dissipated(const At& at) const;                              // if it takes any [J]
 //
-// `At` stands for the bonds at hand, one now and a pack of lanes later: at(column) loads their numbers, at.store(column,
-// value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T.
+// `At` stands for the bonds at hand, one or as many as a pack has lanes: at(column) loads their numbers, at.store(column,
+// value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T. Numbers
+// of the law itself, the same for all bonds, are Real and become a T where they are used.
 
 #include <algorithm>
 #include <variant>
 #include <vector>
 
 #include "core/mechanics/lane.hpp"
+#include "core/base/pack.hpp"
 #include "core/mechanics/wrench.hpp"
 #include "core/plugin/kinds.hpp"
 
@@ -52,6 +54,36 @@ struct One {
 
  private:
   [[gnu::always_inline]] Real number(const std::byte* base) const { return reinterpret_cast<const Real*>(base)[row]; }
+};
+
+/// As many bonds as a pack has lanes: rows `row`, row + 1, ...
+template <int W>
+struct Several {
+  using Number = Pack<W>;
+  Index row = 0;
+  bool* flagged = nullptr;
+
+  [[gnu::always_inline]] Pack<W> operator()(const View<const Real>& column) const { return numbers(column.base()); }
+  [[gnu::always_inline]] Vec<Pack<W>> operator()(const View<const Vec3>& column) const {
+    const std::byte* base = column.base();
+    return {numbers(base), numbers(base + column.plane()), numbers(base + 2 * column.plane())};
+  }
+  [[gnu::always_inline]] Quaternion<Pack<W>> operator()(const View<const Quat>& column) const {
+    const std::byte* base = column.base();
+    const std::size_t plane = column.plane();
+    return {numbers(base), {numbers(base + plane), numbers(base + 2 * plane), numbers(base + 3 * plane)}};
+  }
+  [[gnu::always_inline]] void store(const View<Real>& column, const Pack<W>& value) const { value.store(&column[row]); }
+  [[gnu::always_inline]] void store(const View<Vec3>& column, const Vec<Pack<W>>& value) const {
+    for (int c = 0; c < 3; ++c) value[c].store(&column.at(row, c));
+  }
+  template <class M>
+  [[gnu::always_inline]] void flag(const M& mask) const {
+    *flagged |= any(mask);
+  }
+
+ private:
+  [[gnu::always_inline]] Pack<W> numbers(const std::byte* base) const { return Pack<W>::load(reinterpret_cast<const Real*>(base) + row); }
 };
 
 /// The lines of the elements that the loop reads and adds to: position and orientation share a stride, force and torque
@@ -103,6 +135,49 @@ class ElementLines {
     }
   }
 
+  /// As above for the bonds of several lanes, whose ends stand at i[0], i[1], ... and j[0], j[1], ...
+  template <bool turns, int W>
+  [[gnu::always_inline]] Ends<Pack<W>> ends(const Index* i, const Index* j) const {
+    const auto line = [&](const Index* of, std::size_t half) {
+      return pack::fetch<W>([&, half](int lane) { return at(position_, of[lane], pose_) + 4 * half; });
+    };
+    const auto a = line(i, 0);
+    const auto b = line(j, 0);
+    Ends<Pack<W>> ends;
+    ends.apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    if constexpr (turns) {  // x y z qw | qx qy qz
+      const auto c = line(i, 1);
+      const auto d = line(j, 1);
+      ends.q1 = {a[3], {c[0], c[1], c[2]}};
+      ends.q2 = {b[3], {d[0], d[1], d[2]}};
+    }
+    return ends;
+  }
+
+  /// Lane by lane, in the order of the bonds: each sum takes its terms as the scalar loop adds them.
+  template <bool turns, int W>
+  [[gnu::always_inline]] void add(const Index* i, const Index* k, const Wrench<Pack<W>>& w) const {
+    const Pack<W> nothing(-0.0);  // x + (-0.0) is x, whatever the sign of a zero
+    const Vec<Pack<W>>& f = w.force;
+    if constexpr (turns) {  // fx fy fz tx | ty tz
+      const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], w.torque1[0]});
+      const auto low2 = pack::rows<W>({f[0], f[1], f[2], w.torque2[0]});
+      const auto high1 = pack::rows<W>({w.torque1[1], w.torque1[2], nothing, nothing});
+      const auto high2 = pack::rows<W>({w.torque2[1], w.torque2[2], nothing, nothing});
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        add_to(at(force_, i[lane], load_), low1[lane], high1[lane]);
+        add_to(at(force_, k[lane], load_), low2[lane], high2[lane]);
+      }
+    } else {
+      const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], nothing});
+      const auto low2 = pack::rows<W>({f[0], f[1], f[2], nothing});
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        add_to(at(force_, i[lane], load_), low1[lane]);
+        add_to(at(force_, k[lane], load_), low2[lane]);
+      }
+    }
+  }
+
   void clear(Index begin, Index end) const {
     for (Index row = begin; row < end; ++row) {
       const std::size_t at = static_cast<std::size_t>(row) * load_;
@@ -119,11 +194,35 @@ class ElementLines {
     sum[2] += sign * v[2];
   }
 
+  [[gnu::always_inline]] static Real* at(std::byte* base, Index row, std::size_t stride) {
+    return reinterpret_cast<Real*>(base + static_cast<std::size_t>(row) * stride);
+  }
+  [[gnu::always_inline]] static void add_to(Real* line, const Quad& low) { (Quad::load(line) + low).store(line); }
+  [[gnu::always_inline]] static void add_to(Real* line, const Quad& low, const Quad& high) {
+    add_to(line, low);
+    add_to(line + 4, high);
+  }
+
   std::byte *position_ = nullptr, *orientation_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
   std::size_t pose_ = 0, load_ = 0;
 };
 
 namespace bond_loop {
+
+/// The bonds of the chunk that fill whole packs; returns the first one that is left.
+template <Pass pass, int W, class Law>
+[[gnu::always_inline]] inline Index run_packs(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk,
+                                              bool& flagged) {
+  const Index* first = &table.first()[0];
+  const Index* second = &table.second()[0];
+  const Index* target = &table.target()[0];
+  Index b = chunk.begin;
+  for (; b + W <= chunk.live_end; b += W)
+    elements.add<Law::turns, W>(
+        first + b, target + b,
+        law.template act<pass>(Several<W>{b, &flagged}, elements.ends<Law::turns, W>(first + b, second + b)));
+  return b;
+}
 
 template <Pass pass, class Law>
 bool run_chunk(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
@@ -133,7 +232,9 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
   const Law l = law;
   const ElementLines e = elements;
   bool flagged = false;
-  for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+  Index b = chunk.begin;
+  if constexpr (pack_width > 1) b = run_packs<pass, pack_width>(l, table, e, chunk, flagged);
+  for (; b < chunk.live_end; ++b) {
     const Index i = first[b];
     e.add<Law::turns>(i, target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law::turns>(i, second[b])));
   }

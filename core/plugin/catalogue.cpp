@@ -35,6 +35,7 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
   const fs::path core = boost::dll::this_line_location().string();
   places.push_back(fs::canonical(core).parent_path() / "beadwork");
 
+  const std::vector<std::string> sets = instruction_sets();
   Catalogue catalogue;
   std::vector<fs::path> opened;
   for (const fs::path& place : places) {
@@ -43,9 +44,10 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
       const fs::path real = fs::weakly_canonical(path, ignored);
       if (std::find(opened.begin(), opened.end(), real) != opened.end()) continue;
       opened.push_back(real);
-      catalogue.add(open_library(real));
+      catalogue.add(open_library(widest_variant(real, sets)));
     }
   }
+  catalogue.instructions_ = sets.empty() ? "baseline" : sets.front();
   return catalogue;
 }
 

@@ -26,6 +26,8 @@ class Catalogue {
   /// Every kind in which this tag is known.
   std::vector<Kind> kinds_of(const std::string& tag) const;
   const std::vector<Library>& libraries() const { return libraries_; }
+  /// The widest instruction set for which libraries were looked for.
+  const std::string& instructions() const { return instructions_; }
   std::string library_of(Kind kind, const std::string& tag) const;
 
  private:
@@ -35,6 +37,7 @@ class Catalogue {
   };
   std::map<std::pair<Kind, std::string>, Place> entries_;
   std::vector<Library> libraries_;
+  std::string instructions_ = "baseline";
 };
 
 }  // namespace beadwork

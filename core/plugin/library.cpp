@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <boost/dll/shared_library.hpp>
+#include <cstdlib>
 
 #include "core/base/failure.hpp"
 #include "core/plugin/stamp.hpp"
@@ -22,7 +24,36 @@ std::string why_not(const std::filesystem::path& path) {
   return reason.starts_with(path.string() + ": ") ? reason.substr(path.string().size() + 2) : reason;
 }
 
+bool has(std::string_view set) {
+#if defined(__x86_64__)
+  if (set == "avx2") return __builtin_cpu_supports("avx2");
+  if (set == "avx512")
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#endif
+  return false;
+}
+
 }  // namespace
+
+std::vector<std::string> instruction_sets() {
+  const std::vector<std::string> known{"avx512", "avx2", "baseline"};
+  const char* variable = std::getenv("BEADWORK_INSTRUCTIONS");
+  const auto widest = variable && *variable ? std::find(known.begin(), known.end(), variable) : known.begin();
+  if (widest == known.end())
+    throw LibraryFailure(fmt::format("BEADWORK_INSTRUCTIONS is \"{}\"; it may be baseline, avx2 or avx512", variable));
+  std::vector<std::string> sets;
+  std::copy_if(widest, known.end(), std::back_inserter(sets), has);
+  return sets;
+}
+
+std::filesystem::path widest_variant(const std::filesystem::path& path, const std::vector<std::string>& sets) {
+  for (const std::string& set : sets) {
+    const auto variant = path.parent_path() / set / path.filename();
+    std::error_code ignored;
+    if (std::filesystem::exists(variant, ignored)) return variant;
+  }
+  return path;
+}
 
 Library open_library(const std::filesystem::path& path) {
   boost::dll::fs::error_code error;

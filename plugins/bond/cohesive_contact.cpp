@@ -37,13 +37,13 @@ struct CohesiveOpening : CohesiveColumns {
   template <Pass pass, class At, class T>
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const T history = at(largest_opening);
-    const CohesivePull<T> pull = cohesive_pull<T>(laws.normal, rest(at), ends.apart, history);
+    const CohesivePull<T> pull = cohesive_pull<T>(as<T>(laws.normal), rest(at), ends.apart, history);
     if constexpr (pass.settle) {
       at.store(largest_opening, pull.history);
       at.flag(newly(history, pull.history, laws.normal.onset) || newly(history, pull.history, laws.normal.open));
     }
     if constexpr (pass.sections) {
-      if (damage) at.store(damage, beadwork::damage<T>(laws.normal, pull.history));
+      if (damage) at.store(damage, beadwork::damage<T>(as<T>(laws.normal), pull.history));
       if (opening) at.store(opening, normal_opening<T>(rest(at), ends.apart));
     }
     return {pull.force, zero<Vec<T>>(), zero<Vec<T>>()};
@@ -52,7 +52,7 @@ struct CohesiveOpening : CohesiveColumns {
   template <class At, class T>
   T stored(const At& at, const Ends<T>& ends) const {
     const auto r = rest(at);
-    return r.area * stored_per_area<T>(laws.normal, normal_opening<T>(r, ends.apart), at(largest_opening));
+    return r.area * stored_per_area<T>(as<T>(laws.normal), normal_opening<T>(r, ends.apart), at(largest_opening));
   }
 
   template <class At>
@@ -87,12 +87,12 @@ struct CohesiveSliding : CohesiveColumns {
   template <Pass pass, class At, class T>
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const Openings<T> before = history(at);
-    const auto now = cohesive_wrench<modes, T>(laws, rest(at), arms(at), ends.apart, ends.q1, ends.q2, before);
+    const auto now = cohesive_wrench<modes, T>(as<T>(laws), rest(at), arms(at), ends.apart, ends.q1, ends.q2, before);
     if constexpr (pass.settle) {
       at.store(largest_sliding, now.history.shear);
       if constexpr (modes == CohesiveModes::both) {
         const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
-        at.store(let_go, at(let_go) + cohesive_released<modes, T>(laws, rest(at), state.opening, before));
+        at.store(let_go, at(let_go) + cohesive_released<modes, T>(as<T>(laws), rest(at), state.opening, before));
         at.store(largest_opening, now.history.normal);
       }
       const auto slid = CohesiveOpening::newly(before.shear, now.history.shear, laws.shear.onset) ||
@@ -113,9 +113,9 @@ struct CohesiveSliding : CohesiveColumns {
     if (opening) at.store(opening, state.opening.normal);
     if (sliding) at.store(sliding, state.opening.shear);
     if (!damage) return;
-    const T shear = beadwork::damage<T>(laws.shear, next.shear);
+    const T shear = beadwork::damage<T>(as<T>(laws.shear), next.shear);
     if constexpr (modes == CohesiveModes::both)
-      at.store(damage, max(shear, beadwork::damage<T>(laws.normal, next.normal)));
+      at.store(damage, max(shear, beadwork::damage<T>(as<T>(laws.normal), next.normal)));
     else
       at.store(damage, shear);
   }
@@ -123,7 +123,7 @@ struct CohesiveSliding : CohesiveColumns {
   template <class At, class T>
   T stored(const At& at, const Ends<T>& ends) const {
     const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
-    return cohesive_stored<modes, T>(laws, rest(at), state.opening, history(at));
+    return cohesive_stored<modes, T>(as<T>(laws), rest(at), state.opening, history(at));
   }
 
   template <class At>

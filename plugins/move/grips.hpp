@@ -37,6 +37,13 @@ class Grips {
     }
   }
 
+  /// Bit `axis` of the axes that something prescribes on this row.
+  unsigned held(Index row) const { return held_[static_cast<std::size_t>(row)]; }
+  bool holds_any(Index row, int count) const {
+    unsigned any = 0;
+    for (int k = 0; k < count; ++k) any |= held(row + k);
+    return any != 0;
+  }
   bool holds(Index row, int axis) const { return held_[static_cast<std::size_t>(row)] >> axis & 1; }
 
   /// Notes where what is gripped stands; to be called before places advance.

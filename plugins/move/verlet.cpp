@@ -4,6 +4,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/sums.hpp"
+#include "core/domain/rows.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/verlet.hpp"
 #include "core/plugin/kinds.hpp"
@@ -101,61 +102,87 @@ class Verlet final : public Mover {
   // Places and orientations at the next time; velocities half-way there.   Eq (1)
   void advance_all(Real dt) {
     const Real half = 0.5 * *beta * dt;
-#pragma omp parallel for schedule(static) if (count_ > 4096)
-    for (Index i = 0; i < count_; ++i) {
-      const Vec3 a = force[i] * (1 / mass[i]);
-      const Vec3 v = velocity[i];
-      position_.set(i, advance<Real>(position_[i], v, a, dt));
-      velocity.set(i, v + half * a);
-      if (!spin) continue;
-      const Vec3 alpha = torque[i] * (1 / inertia[i]);
-      const Vec3 omega = spin[i];
-      orientation.set(i, turn<Real>(orientation[i], omega, alpha, dt));
-      spin.set(i, omega + half * alpha);
-    }
+    rows::each(count_, [=, this, x = position_, v = velocity.view(), q = orientation.view(), w = spin.view(), f = force.view(),
+                        t = torque.view(), m = mass.view(), inert = inertia.view()](const auto& at) {
+      using T = typename std::decay_t<decltype(at)>::Number;
+      const Vec<T> a = (T(1) / at(m)) * at(f);
+      const Vec<T> before = at(v);
+      at.set(x, advance<T>(at(x), before, a, T(dt)));
+      at.set(v, before + T(half) * a);
+      if (!w) return;
+      const Vec<T> alpha = (T(1) / at(inert)) * at(t);
+      const Vec<T> omega = at(w);
+      at.set(q, turn<T>(at(q), omega, alpha, T(dt)));
+      at.set(w, omega + T(half) * alpha);
+    });
   }
 
   // Velocities from half-way to the full step.   Eq (2)
   void correct_all(Workings& w) {
     const Real half = 0.5 * *beta * w.moment().time_step;
-    bool broken = false;
-#pragma omp parallel for schedule(static) reduction(|| : broken) if (count_ > 4096)
-    for (Index i = 0; i < count_; ++i) {
-      const Vec3 f = force[i];
-      Real all = f.x() + f.y() + f.z();
-      velocity.set(i, velocity[i] + (half / mass[i]) * f);
-      if (spin) {
-        const Vec3 t = torque[i];
-        all += t.x() + t.y() + t.z();
-        spin.set(i, spin[i] + (half / inertia[i]) * t);
+    const bool broken = rows::any_of(count_, [=, v = velocity.view(), omega = spin.view(), f = force.view(), t = torque.view(),
+                                              m = mass.view(), inert = inertia.view()](const auto& at) {
+      using T = typename std::decay_t<decltype(at)>::Number;
+      const Vec<T> push = at(f);
+      T all = push[0] + push[1] + push[2];
+      at.set(v, at(v) + (T(half) / at(m)) * push);
+      if (omega) {
+        const Vec<T> twist = at(t);
+        all = all + twist[0] + twist[1] + twist[2];
+        at.set(omega, at(omega) + (T(half) / at(inert)) * twist);
       }
-      broken = broken || !std::isfinite(all);
-    }
+      return !(all - all >= T(0));  // an infinity or what is no number
+    });
     if (broken) stop_at_force(w);
   }
 
-  // F -= alpha |F| sgn(v), component by component. What it takes in one step is dt f.v with the velocity at full time,
-  // which the leap-frog form of the scheme makes exact.
+  // F -= alpha |F| sgn(v), component by component, where nothing prescribes the motion. What it takes in one step is dt f.v
+  // with the velocity at full time, which the leap-frog form of the scheme makes exact.
+  template <class T>
+  struct Damped {
+    Vec<T> load;
+    T taken;
+  };
+  template <class T>
+  [[gnu::always_inline]] static Damped<T> damp_one(const Vec<T>& load, const Vec<T>& rate, const T& inverse, Real share, Real dt,
+                                                   Real half, unsigned held = 0) {
+    Damped<T> out{load, T(0)};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (held >> axis & 1) continue;
+      const T f = load[axis], v = rate[axis];
+      const T size = select(f < T(0), -f, f);
+      const T sense = select(v > T(0), T(1), select(v < T(0), T(-1), T(0)));
+      const T d = (T(-share) * size) * sense;
+      out.load[axis] = f + d;
+      out.taken = out.taken - T(dt) * d * (v + T(half) * inverse * out.load[axis]);
+    }
+    return out;
+  }
   void damp(Workings& w) {
     if (*local_damping == 0) return;
     const Real dt = w.moment().time_step;
     const Real half = 0.5 * *beta * dt;
-    const auto damp_one = [&](const View<Vec3>& load, const View<Vec3>& rate, Real inertia_of, Index i, int first_axis) {
-      Real taken = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (grips_.holds(i, first_axis + axis)) continue;
-        Real& f = load.at(i, axis);
-        const Real v = rate.at(i, axis);
-        const Real d = v == 0 ? 0 : -*local_damping * std::abs(f) * (v > 0 ? 1 : -1);
-        f += d;
-        taken -= dt * d * (v + half * f / inertia_of);
+    const Real share = *local_damping;
+    damped[0] += rows::sum(count_, [=, this, v = velocity.view(), omega = spin.view(), f = force.view(), t = torque.view(),
+                                    m = mass.view(), inert = inertia.view()]<class At>(const At& at) {
+      using T = typename At::Number;
+      const auto both = [&]<class Row>(const Row& row, unsigned held) {
+        using N = typename Row::Number;
+        const auto pushed = damp_one<N>(row(f), row(v), N(1) / row(m), share, dt, half, held);
+        row.set(f, pushed.load);
+        if (!omega) return pushed.taken;
+        const auto turned = damp_one<N>(row(t), row(omega), N(1) / row(inert), share, dt, half, held >> 3);
+        row.set(t, turned.load);
+        return N(pushed.taken + turned.taken);
+      };
+      if constexpr (At::count == 1) {
+        return both(at, grips_.held(at.row));
+      } else {
+        if (!grips_.holds_any(at.row, At::count)) return both(at, 0);
+        T taken(0);
+        for (int k = 0; k < At::count; ++k) taken.v[k] = both(Rows<1>{at.row + k}, grips_.held(at.row + k));
+        return taken;
       }
-      return taken;
-    };
-    damped[0] += fixed_sum(count_, [&](Index i) {
-      Real taken = damp_one(force.view(), velocity.view(), mass[i], i, 0);
-      if (spin) taken += damp_one(torque.view(), spin.view(), inertia[i], i, 3);
-      return taken;
     });
   }
 

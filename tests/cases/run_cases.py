@@ -2,7 +2,8 @@
 """The quick deck of a case, shortened to some hundred steps, past the first damage or break where it has any.
 Usage: run_cases.py BEADWORK DECK QUESTION
 
-same_bits   one thread, two threads, and a run split by a restart: equal bits in every checkpoint and curve
+same_bits   one thread, two threads, a run split by a restart, and narrower instruction sets: equal bits in every
+            checkpoint and curve
 killed      kill -9 in the middle: run.h5 opens, and the checkpoint goes on to the same bits
 terminated  SIGTERM: exit code 5, a checkpoint, and --resume goes on to the same bits
 """
@@ -112,7 +113,12 @@ def same_bits(case):
     case.run("two", case.steps, 2)
     case.run("split", case.steps // 2 + 1, 1)
     case.run("split", case.steps, 1, "--resume")
-    return case.compare("one", "two") + case.compare("one", "split")
+    differences = case.compare("one", "two") + case.compare("one", "split")
+    for instructions in ("avx2", "baseline"):
+        os.environ["BEADWORK_INSTRUCTIONS"] = instructions
+        case.run(instructions, case.steps, 1)
+        differences += case.compare("one", instructions)
+    return differences
 
 
 def step_of(folder):

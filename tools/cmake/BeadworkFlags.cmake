@@ -6,6 +6,7 @@ add_library(beadwork_flags INTERFACE)
 target_compile_options(beadwork_flags INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-semantic-interposition
   $<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-unknown-pragmas;$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>)
+target_compile_definitions(beadwork_flags INTERFACE EIGEN_DONT_VECTORIZE)  # as the core says to those that link it
 if(BEADWORK_SANITIZE)
   target_compile_options(beadwork_flags INTERFACE -fsanitize=${BEADWORK_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(beadwork_flags INTERFACE -fsanitize=${BEADWORK_SANITIZE})

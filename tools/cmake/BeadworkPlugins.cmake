@@ -1,10 +1,20 @@
-# beadwork_add_plugins(library source...): one shared library of plugins, one plugin per source file.
+# beadwork_add_plugins(library [NAMESPACE name] [VECTORISED] source...): one shared library of plugins, one plugin per
+# source file.
 #
 # The list that the library hands over is generated from the file names (cohesive_beam.cpp holds class CohesiveBeam in
 # namespace beadwork or in the one named by NAMESPACE), so a new plugin is one new file and no list is edited. Each source
 # is compiled through a small generated file that includes it. Works in the tree and from the installed package.
+#
+# VECTORISED compiles it once more for each wider instruction set, into folders avx2/ and avx512/ beside it; the program
+# opens the widest one that the processor has. Each is a library of its own, so that no function compiled for one
+# processor can be linked into what runs on another. BEADWORK_VARIANTS_<library> lists those targets.
+
+# What -march=... would allow beyond these is left out: the program asks the processor for exactly these.
+set(BEADWORK_INSTRUCTIONS_avx2 -mavx2)
+set(BEADWORK_INSTRUCTIONS_avx512 -mavx512f -mavx512dq -mavx512vl)
+
 function(beadwork_add_plugins library)
-  cmake_parse_arguments(PLUGINS "" "NAMESPACE" "" ${ARGN})
+  cmake_parse_arguments(PLUGINS "VECTORISED" "NAMESPACE" "" ${ARGN})
   if(NOT PLUGINS_NAMESPACE)
     set(PLUGINS_NAMESPACE beadwork)
   endif()
@@ -47,8 +57,26 @@ extern \"C\" const std::vector<beadwork::PluginEntry>* beadwork_plugins() {
   return &list;
 }
 ")
-  add_library(${library} MODULE ${wrappers} ${folder}/list.cpp)
-  set_target_properties(${library} PROPERTIES PREFIX "" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-                        INSTALL_RPATH "$ORIGIN/..")
-  target_link_libraries(${library} PRIVATE Beadwork::beadwork)
+  set(variants "")
+  if(PLUGINS_VECTORISED AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set(variants avx2 avx512)
+  endif()
+  foreach(variant IN ITEMS "" LISTS variants)
+    set(target ${library})
+    if(variant)
+      set(target ${library}_${variant})
+    endif()
+    add_library(${target} MODULE ${wrappers} ${folder}/list.cpp)
+    set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${library} CXX_VISIBILITY_PRESET hidden
+                          VISIBILITY_INLINES_HIDDEN ON)
+    target_link_libraries(${target} PRIVATE Beadwork::beadwork)
+    if(variant)
+      target_compile_options(${target} PRIVATE ${BEADWORK_INSTRUCTIONS_${variant}})
+      set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../.."
+                            LIBRARY_OUTPUT_DIRECTORY $<TARGET_FILE_DIR:${library}>/${variant})
+    else()
+      set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
+    endif()
+  endforeach()
+  set(BEADWORK_VARIANTS_${library} ${variants} PARENT_SCOPE)
 endfunction()

@@ -5,7 +5,7 @@
 namespace beadwork::ropes {
 
 /// The law: a small value with the columns and numbers of the ropes, and what is done with one of them. T is the number
-/// type: nothing may branch on it, so that one day the same code works on a pack of bonds at once.
+/// type, Real or a pack of as many as the processor takes at once: nothing may branch on it.
 struct RopeLaw {
   View<const Real> length;
   View<Real> stretch;  // null where nobody reads it
@@ -14,7 +14,7 @@ struct RopeLaw {
   static constexpr bool turns = false;  // reads no orientations and gives no torques
 
   template <Pass pass, class At, class T>
-  Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const T distance = sqrt(dot(ends.apart, ends.apart));
     const T longer = distance - at(length);
     const T pull = max(T(0), T(stiffness) * longer);
