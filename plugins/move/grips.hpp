@@ -1,9 +1,15 @@
 #pragma once
 // Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), each element by itself or their mean.
 // Axes 0..2 are places, 3..5 are turns: those are held still, which spins and torques alone see to.
+//
+// A mean is that of the main body only. A loose element, which no bond holds, would take its share of the force and fly
+// away, and the mean would follow it instead of the specimen.
 
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "core/domain/bodies.hpp"
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {
@@ -17,11 +23,19 @@ struct Gripped {
 class Grips {
  public:
   Grips() = default;
-  Grips(const Domain& domain, const std::vector<Constraint>& constraints) : held_(static_cast<std::size_t>(domain.size()), 0) {
-    for (const Constraint& c : constraints) {
-      sets_.push_back(&domain.set(c.set));
+  Grips(Workings& w) : held_(static_cast<std::size_t>(w.domain().size()), 0) {
+    std::vector<const BondTable*> tables;
+    for (const auto& [law, table] : w.laws()) tables.push_back(table);
+    std::vector<Index> body;
+    for (const Constraint& c : w.constraints()) {
+      const Set& all = w.domain().set(c.set);
+      if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, w.moment().stage_step);
+      sets_.push_back(c.grip == Grip::mean ? main_body(all, body) : all);
+      if (sets_.back().size() < all.size())
+        w.say(fmt::format("{} of the {} elements of '{}' hang loose and are left out of its mean", all.size() - sets_.back().size(),
+                          all.size(), c.set));
       means_.push_back(0);
-      for (const Index row : *sets_.back()) held_[static_cast<std::size_t>(row)] |= static_cast<unsigned char>(1 << c.axis);
+      for (const Index row : sets_.back()) held_[static_cast<std::size_t>(row)] |= static_cast<unsigned char>(1 << c.axis);
     }
   }
 
@@ -31,9 +45,9 @@ class Grips {
       Constraint& c = w.constraints()[k];
       const Gripped& of = c.axis < 3 ? places : turns;
       if (!of.rate) continue;
-      const Real before = kinetic(*sets_[k], of, c.axis % 3);
-      set_rate(c, *sets_[k], c.motion(w.moment().time - w.moment().stage_start).velocity, of);
-      c.work += (kinetic(*sets_[k], of, c.axis % 3) - before) / beta;
+      const Real before = kinetic(sets_[k], of, c.axis % 3);
+      set_rate(c, sets_[k], c.motion(w.moment().time - w.moment().stage_start).velocity, of);
+      c.work += (kinetic(sets_[k], of, c.axis % 3) - before) / beta;
     }
   }
 
@@ -50,14 +64,14 @@ class Grips {
   void before_advance(Workings& w, const View<Vec3>& position) {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
-      if (c.axis < 3 && c.grip == Grip::mean) means_[k] = mean(*sets_[k], [&](Index row) { return position.at(row, c.axis); });
+      if (c.axis < 3 && c.grip == Grip::mean) means_[k] = mean(sets_[k], [&](Index row) { return position.at(row, c.axis); });
     }
     if (places_.empty())
-      for (const Set* set : sets_) places_.emplace_back(set->size());
+      for (const Set& set : sets_) places_.emplace_back(set.size());
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
       if (c.axis >= 3 || c.grip != Grip::each) continue;
-      for (std::size_t n = 0; n < sets_[k]->size(); ++n) places_[k][n] = position.at((*sets_[k])[n], c.axis);
+      for (std::size_t n = 0; n < sets_[k].size(); ++n) places_[k][n] = position.at(sets_[k][n], c.axis);
     }
   }
 
@@ -70,11 +84,11 @@ class Grips {
       const Real moved = travel(c, now, now.time + now.time_step) - travel(c, now, now.time);
       c.work += 0.5 * c.reaction * moved;
       if (c.grip == Grip::each) {
-        for (std::size_t n = 0; n < sets_[k]->size(); ++n) position.at((*sets_[k])[n], c.axis) = places_[k][n] + moved;
+        for (std::size_t n = 0; n < sets_[k].size(); ++n) position.at(sets_[k][n], c.axis) = places_[k][n] + moved;
         continue;
       }
-      const Real reached = mean(*sets_[k], [&](Index row) { return position.at(row, c.axis); });
-      shift(*sets_[k], means_[k] + moved - reached, position, c.axis, mass);
+      const Real reached = mean(sets_[k], [&](Index row) { return position.at(row, c.axis); });
+      shift(sets_[k], means_[k] + moved - reached, position, c.axis, mass);
     }
   }
 
@@ -86,7 +100,7 @@ class Grips {
       Constraint& c = w.constraints()[k];
       const Gripped& of = c.axis < 3 ? places : turns;
       if (!of.load) continue;
-      const Set& set = *sets_[k];
+      const Set& set = sets_[k];
       const int axis = c.axis % 3;
       const Real a = c.motion(now.time - now.stage_start).acceleration / beta;
       Real sum = 0;
@@ -113,7 +127,7 @@ class Grips {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
       const Gripped& of = c.axis < 3 ? places : turns;
-      if (of.rate) set_rate(c, *sets_[k], c.motion(now.time - now.stage_start).velocity, of);
+      if (of.rate) set_rate(c, sets_[k], c.motion(now.time - now.stage_start).velocity, of);
     }
   }
 
@@ -148,7 +162,7 @@ class Grips {
     for (const Index row : set) of.at(row, axis) += scale / mass[row];
   }
 
-  std::vector<const Set*> sets_;
+  std::vector<Set> sets_;
   std::vector<Real> means_;
   std::vector<std::vector<Real>> places_;
   std::vector<unsigned char> held_;

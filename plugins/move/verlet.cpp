@@ -43,7 +43,7 @@ class Verlet final : public Mover {
   void prepare(Workings& w, bool resumed) override {
     count_ = w.domain().size();
     position_ = w.domain().elements().column("position").view<Vec3>();
-    grips_ = Grips(w.domain(), w.constraints());
+    grips_ = Grips(w);
     if (!resumed) {
       step_ = largest_step(w);
       const Real largest = step_.time_step;

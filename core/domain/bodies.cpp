@@ -1,0 +1,58 @@
+#include "core/domain/bodies.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_set>
+
+namespace beadwork {
+
+namespace {
+
+std::unordered_set<Index> broken_by(const Domain& domain, const BondTable& table, std::int64_t when) {
+  std::unordered_set<Index> ids;
+  for (const Break& b : domain.breaks().breaks)
+    if (b.step <= when && domain.families()[static_cast<std::size_t>(b.family)].get() == &table) ids.insert(b.bond);
+  return ids;
+}
+
+}  // namespace
+
+std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const> tables, std::int64_t when) {
+  std::vector<Index> lower(static_cast<std::size_t>(domain.size()));  // an element of the same body with a lower row, or itself
+  std::iota(lower.begin(), lower.end(), 0);
+  const auto lowest = [&](Index row) {
+    while (lower[static_cast<std::size_t>(row)] != row) {
+      Index& next = lower[static_cast<std::size_t>(row)];
+      row = next = lower[static_cast<std::size_t>(next)];
+    }
+    return row;
+  };
+  for (const BondTable* table : tables) {
+    const auto broken = broken_by(domain, *table, when);
+    for (Index b = 0; b < table->size(); ++b) {
+      if (broken.contains(table->id()[b])) continue;
+      const auto [first, second] = std::minmax({lowest(table->first()[b]), lowest(table->second()[b])});
+      lower[static_cast<std::size_t>(second)] = first;
+    }
+  }
+  for (Index row = 0; row < domain.size(); ++row) lower[static_cast<std::size_t>(row)] = lowest(row);
+  return lower;
+}
+
+Set main_body(const Set& set, const std::vector<Index>& body) {
+  std::vector<Index> members(body.size(), 0);
+  for (const Index of : body) ++members[static_cast<std::size_t>(of)];
+  Index main = -1, most = 1;
+  for (const Index row : set) {
+    const Index of = body[static_cast<std::size_t>(row)];
+    if (members[static_cast<std::size_t>(of)] <= most) continue;
+    most = members[static_cast<std::size_t>(of)];
+    main = of;
+  }
+  if (main < 0) return set;
+  Set kept;
+  std::copy_if(set.begin(), set.end(), std::back_inserter(kept), [&](Index row) { return body[static_cast<std::size_t>(row)] == main; });
+  return kept;
+}
+
+}  // namespace beadwork

@@ -1,0 +1,20 @@
+#pragma once
+// Which elements hang together by bonds.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/domain/domain.hpp"
+
+namespace beadwork {
+
+/// For each element the lowest row of the body that it belongs to: itself where no bond holds it. Bonds of `tables` count,
+/// as they stood after step `when` (the break log tells which were broken by then).
+std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const> tables, std::int64_t when);
+
+/// The members of a set that belong to its main body: the one with most elements among those that the set touches. The whole
+/// set if no bond holds any of them.
+Set main_body(const Set& set, const std::vector<Index>& body);
+
+}  // namespace beadwork
