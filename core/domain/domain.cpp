@@ -100,4 +100,14 @@ void Domain::gather() {
   }
 }
 
+void Domain::clear_halo() {
+  const auto force = elements_.column("force").view<Vec3>();
+  const Column* torques = elements_.find("torque");
+  const auto torque = torques ? torques->view<Vec3>() : View<Vec3>{};
+  for (const Index row : share_rows_) {
+    force.set(row, zero<Vec3>());
+    if (torque) torque.set(row, zero<Vec3>());
+  }
+}
+
 }  // namespace beadwork

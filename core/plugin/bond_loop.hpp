@@ -5,6 +5,7 @@
 //   template <Pass pass, class At, class T> Wrench<T> act(const At& at, const Ends<T>& ends) const;
 //   template <class At, class T> T stored(const At& at, const Ends<T>& ends) const;      // recoverable energy [J]
 //   template <class At> auto dissipated(const At& at) const;                              // if it takes any [J]
+//   static constexpr bool moves = true;    // if it reads velocities, and spins where it turns
 //
 // `At` stands for the bonds at hand, one or as many as a pack has lanes: at(column) loads their numbers, at.store(column,
 // value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T. Numbers
@@ -24,8 +25,15 @@ namespace beadwork {
 template <class T>
 struct Ends {
   Vec<T> apart;          ///< x2 - x1 [m]
-  Quaternion<T> q1, q2;  ///< identity where the law does not turn
+  Quaternion<T> q1, q2;  ///< where the law turns
+  Vec<T> v1, v2, w1, w2;  ///< velocities and spins, where the law reads them
 };
+
+template <class Law>
+constexpr bool moves() {
+  if constexpr (requires { Law::moves; }) return Law::moves;
+  return false;
+}
 
 struct Pass {
   bool settle = false;
@@ -86,8 +94,8 @@ struct Several {
   [[gnu::always_inline]] Pack<W> numbers(const std::byte* base) const { return Pack<W>::load(reinterpret_cast<const Real*>(base) + row); }
 };
 
-/// The lines of the elements that the loop reads and adds to: position and orientation share a stride, force and torque
-/// another.
+/// The lines of the elements that the loop reads and adds to: position and orientation share one, velocity and spin another,
+/// force and torque a third.
 class ElementLines {
  public:
   static ElementLines of(const Domain& domain) {
@@ -100,24 +108,31 @@ class ElementLines {
     lines.orientation_ = base("orientation");
     lines.force_ = base("force");
     lines.torque_ = base("torque");
+    lines.velocity_ = base("velocity");
+    if (const Column* velocity = domain.elements().find("velocity")) lines.motion_ = velocity->stride();
     lines.pose_ = domain.elements().column("position").stride();
     if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
     return lines;
   }
 
-  template <bool turns>
+  template <class Law>
   [[gnu::always_inline]] Ends<Real> ends(Index i, Index j) const {
-    const std::size_t at_i = static_cast<std::size_t>(i) * pose_;
-    const std::size_t at_j = static_cast<std::size_t>(j) * pose_;
-    const Real* x1 = reinterpret_cast<const Real*>(position_ + at_i);
-    const Real* x2 = reinterpret_cast<const Real*>(position_ + at_j);
+    const Real *x1 = at(position_, i, pose_), *x2 = at(position_, j, pose_);
     Ends<Real> ends;
     ends.apart = {x2[0] - x1[0], x2[1] - x1[1], x2[2] - x1[2]};
-    if constexpr (turns) {
-      const Real* q1 = reinterpret_cast<const Real*>(orientation_ + at_i);
-      const Real* q2 = reinterpret_cast<const Real*>(orientation_ + at_j);
+    if constexpr (Law::turns) {
+      const Real *q1 = at(orientation_, i, pose_), *q2 = at(orientation_, j, pose_);
       ends.q1 = {q1[0], {q1[1], q1[2], q1[3]}};
       ends.q2 = {q2[0], {q2[1], q2[2], q2[3]}};
+    }
+    if constexpr (moves<Law>()) {
+      const Real *v1 = at(velocity_, i, motion_), *v2 = at(velocity_, j, motion_);
+      ends.v1 = {v1[0], v1[1], v1[2]};
+      ends.v2 = {v2[0], v2[1], v2[2]};
+      if constexpr (Law::turns) {
+        ends.w1 = {v1[3], v1[4], v1[5]};
+        ends.w2 = {v2[3], v2[4], v2[5]};
+      }
     }
     return ends;
   }
@@ -136,20 +151,32 @@ class ElementLines {
   }
 
   /// As above for the bonds of several lanes, whose ends stand at i[0], i[1], ... and j[0], j[1], ...
-  template <bool turns, int W>
+  template <class Law, int W>
   [[gnu::always_inline]] Ends<Pack<W>> ends(const Index* i, const Index* j) const {
-    const auto line = [&](const Index* of, std::size_t half) {
-      return pack::fetch<W>([&, half](int lane) { return at(position_, of[lane], pose_) + 4 * half; });
+    const auto line = [](std::byte* base, std::size_t stride, const Index* of, int half) {
+      return pack::fetch<W>([=](int lane) { return at(base, of[lane], stride) + 4 * half; });
     };
-    const auto a = line(i, 0);
-    const auto b = line(j, 0);
+    const auto a = line(position_, pose_, i, 0);
+    const auto b = line(position_, pose_, j, 0);
     Ends<Pack<W>> ends;
     ends.apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    if constexpr (turns) {  // x y z qw | qx qy qz
-      const auto c = line(i, 1);
-      const auto d = line(j, 1);
+    if constexpr (Law::turns) {  // x y z qw | qx qy qz
+      const auto c = line(position_, pose_, i, 1);
+      const auto d = line(position_, pose_, j, 1);
       ends.q1 = {a[3], {c[0], c[1], c[2]}};
       ends.q2 = {b[3], {d[0], d[1], d[2]}};
+    }
+    if constexpr (moves<Law>()) {  // vx vy vz wx | wy wz
+      const auto v = line(velocity_, motion_, i, 0);
+      const auto u = line(velocity_, motion_, j, 0);
+      ends.v1 = {v[0], v[1], v[2]};
+      ends.v2 = {u[0], u[1], u[2]};
+      if constexpr (Law::turns) {
+        const auto w = line(velocity_, motion_, i, 1);
+        const auto z = line(velocity_, motion_, j, 1);
+        ends.w1 = {v[3], w[0], w[1]};
+        ends.w2 = {u[3], z[0], z[1]};
+      }
     }
     return ends;
   }
@@ -203,8 +230,8 @@ class ElementLines {
     add_to(line + 4, high);
   }
 
-  std::byte *position_ = nullptr, *orientation_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
-  std::size_t pose_ = 0, load_ = 0;
+  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
+  std::size_t pose_ = 0, motion_ = 0, load_ = 0;
 };
 
 namespace bond_loop {
@@ -220,7 +247,7 @@ template <Pass pass, int W, class Law>
   for (; b + W <= chunk.live_end; b += W)
     elements.add<Law::turns, W>(
         first + b, target + b,
-        law.template act<pass>(Several<W>{b, &flagged}, elements.ends<Law::turns, W>(first + b, second + b)));
+        law.template act<pass>(Several<W>{b, &flagged}, elements.ends<Law, W>(first + b, second + b)));
   return b;
 }
 
@@ -236,7 +263,7 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
   if constexpr (pack_width > 1) b = run_packs<pass, pack_width>(l, table, e, chunk, flagged);
   for (; b < chunk.live_end; ++b) {
     const Index i = first[b];
-    e.add<Law::turns>(i, target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law::turns>(i, second[b])));
+    e.add<Law::turns>(i, target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law>(i, second[b])));
   }
   return flagged;
 }
@@ -309,7 +336,7 @@ class BondLawOf : public BondLaw {
           const Index i = table.first()[row];
           const Index j = table.second()[row];
           bool ignored = false;
-          e.add<Law::turns>(i, j, value.template act<Pass{}>(One{row, &ignored}, e.ends<Law::turns>(i, j)), -1);
+          e.add<Law::turns>(i, j, value.template act<Pass{}>(One{row, &ignored}, e.ends<Law>(i, j)), -1);
         },
         law());
   }
@@ -348,7 +375,7 @@ class BondLawOf : public BondLaw {
   static Real stored_by(const Law& value, const Domain& domain, const BondTable& table, Index row) {
     bool ignored = false;
     const auto e = ElementLines::of(domain);
-    return value.stored(One{row, &ignored}, e.template ends<Law::turns>(table.first()[row], table.second()[row]));
+    return value.stored(One{row, &ignored}, e.template ends<Law>(table.first()[row], table.second()[row]));
   }
   std::vector<BondEvent> events_;
 };

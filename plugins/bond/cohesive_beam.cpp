@@ -49,7 +49,11 @@ struct CohesiveBeamFromTurned : CohesiveBeamLaw {
 
   template <class At, class T>
   [[gnu::always_inline]] Ends<T> since_bonding(const At& at, const Ends<T>& ends) const {
-    return {ends.apart, ends.q1 * conjugate(at(reference1)), ends.q2 * conjugate(at(reference2))};
+    Ends<T> since;
+    since.apart = ends.apart;
+    since.q1 = ends.q1 * conjugate(at(reference1));
+    since.q2 = ends.q2 * conjugate(at(reference2));
+    return since;
   }
   template <Pass pass, class At, class T>
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {

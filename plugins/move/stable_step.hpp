@@ -16,7 +16,9 @@ struct StepLimit {
   std::string by = "no bond limits it";
 };
 
-inline StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia) {
+/// `more(table, row, apart)` is added to the stiffness of each bond.
+template <class More>
+StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
   const Domain& domain = w.domain();
   const auto count = static_cast<std::size_t>(domain.size());
   std::vector<Real> m(count), turning(inertia ? count : 0);
@@ -30,11 +32,13 @@ inline StepLimit step_limit(Workings& w, const View<const Real>& mass, const Vie
       for (const Index row : domain.set(c.set)) mobility.hold(row, c.axis);
 
   ElasticNetwork network(domain.size());
+  const auto position = domain.elements().column("position").view<Vec3>();
   std::vector<std::pair<const BondTable*, Index>> origin;
   for (const auto& [law, table] : w.laws())
     for (const Chunk& chunk : table->chunks())
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-        network.add(table->first()[b], table->second()[b], law->tangent(domain, *table, b));
+        const Index i = table->first()[b], j = table->second()[b];
+        network.add(i, j, law->tangent(domain, *table, b) + more(*table, b, Vec3(position[j] - position[i])));
         origin.emplace_back(table, b);
       }
   if (network.bonds() == 0) return {};

@@ -8,6 +8,7 @@
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/verlet.hpp"
 #include "core/plugin/kinds.hpp"
+#include "plugins/move/dashpots.hpp"
 #include "plugins/move/grips.hpp"
 #include "plugins/move/stable_step.hpp"
 
@@ -21,6 +22,7 @@ class Verlet final : public Mover {
   Param<Real> safety{this, {.name = "safety", .range = {0, 1, true, false}, .doc = "Time step over the estimate of the largest stable one", .fallback = "0.9"}};
   Param<Real> fixed_step{this, {.name = "time-step", .unit = "s", .range = positive, .doc = "Time step, instead of the one found by itself; a run that exceeds stability is stopped", .optional = true}};
   Param<Real> local_damping{this, {.name = "local-damping", .range = {0, 1, false, true}, .doc = "Share of each force component that is turned against the motion (Cundall)", .fallback = "0"}};
+  Param<Real> bond_damping{this, {.name = "bond-damping", .range = {0, 1, false, true}, .doc = "Damping ratio of a pair of elements: dashpots beside each bond that holds, which keep both momenta", .fallback = "0"}};
 
   Keeps<Vec3> velocity{this, field::velocity};
   Keeps<Vec3> force{this, field::force};
@@ -31,6 +33,7 @@ class Verlet final : public Mover {
   Reads<Real> inertia{this, field::inertia};
   Reads<Real> radius{this, field::radius};
   Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
+  Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
 
   void choose_rotations(bool wanted) override {
     for (FieldUse* use : {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&spin), static_cast<FieldUse*>(&torque),
@@ -44,6 +47,7 @@ class Verlet final : public Mover {
     count_ = w.domain().size();
     position_ = w.domain().elements().column("position").view<Vec3>();
     grips_ = Grips(w);
+    if (*bond_damping > 0) dashpots_.prepare(w, *bond_damping, mass.view(), inertia.view(), resumed);
     if (!resumed) {
       step_ = largest_step(w);
       const Real largest = step_.time_step;
@@ -55,7 +59,7 @@ class Verlet final : public Mover {
       stable_ = largest;
       w.evaluate(false);
       grips_.seize(w, places(), turns(), *beta);
-      damp(w);
+      damping_power[0] = damp(w) + dashpots_.power(velocity.view(), spin.view());
       grips_.react(w, places(), turns(), *beta);
     }
   }
@@ -70,11 +74,12 @@ class Verlet final : public Mover {
     now.time += now.time_step;
     ++now.step;
     w.evaluate(true);
-    damp(w);
+    const Real taken_by_local = damp(w);
     grips_.react(w, places(), turns(), *beta);
     correct_all(w);
     grips_.after_correct(w, places(), turns());
     book_beta();
+    book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()));
     if (now.step % 100 == 0) check_speed(w);
   }
 
@@ -85,18 +90,28 @@ class Verlet final : public Mover {
                    return 0.5 * twice;
                  }) /
                  *beta);
-    if (*local_damping > 0 || *beta < 1) sink.dissipated("damping", damped[0]);
+    if (*local_damping > 0 || *bond_damping > 0 || *beta < 1) sink.dissipated("damping", damped[0]);
   }
 
  private:
   Gripped places() const { return {velocity.view(), force.view(), mass.view()}; }
   Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }
 
-  // Local damping makes a force that slows down larger by its share, and so the stiffness that limits the step.
+  // Local damping makes a force that slows down larger by its share, and so the stiffness that limits the step. Dashpots see
+  // velocities of half a step ago, which limits it as a stiffness 2 C/dt would; dt falls towards the one that fits.
   StepLimit largest_step(Workings& w) const {
-    StepLimit limit = step_limit(w, mass.view(), inertia.view());
-    limit.time_step /= std::sqrt(1 + *local_damping);
-    return limit;
+    const auto limit = [&](Real dt) {
+      return step_limit(w, mass.view(), inertia.view(), [&](const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
+        return std::isfinite(dt) ? dashpots_.stiffening(table, row, apart, dt) : Matrix12::Zero();
+      });
+    };
+    StepLimit found = limit(std::numeric_limits<Real>::infinity());
+    for (Real before = 0; dashpots_.any() && std::isfinite(found.time_step) && std::abs(found.time_step - before) > 1e-3 * found.time_step;) {
+      before = found.time_step;
+      found = limit(before);
+    }
+    found.time_step /= std::sqrt(1 + *local_damping);
+    return found;
   }
 
   // Places and orientations at the next time; velocities half-way there.   Eq (1)
@@ -136,15 +151,21 @@ class Verlet final : public Mover {
     if (broken) stop_at_force(w);
   }
 
-  // F -= alpha |F| sgn(v), component by component, where nothing prescribes the motion. What it takes in one step is dt f.v
-  // with the velocity at full time, which the leap-frog form of the scheme makes exact.
+  // The kinetic energy after a step holds half of what the forces of this step do, and half of what those of the last one did.
+  void book_damping(Real dt, Real power) {
+    damped[0] += 0.5 * dt * (damping_power[0] + power);
+    damping_power[0] = power;
+  }
+
+  // F -= alpha |F| sgn(v), component by component, where nothing prescribes the motion. Its power is that at the velocity of
+  // full time, which the step is about to reach.
   template <class T>
   struct Damped {
     Vec<T> load;
-    T taken;
+    T power;
   };
   template <class T>
-  [[gnu::always_inline]] static Damped<T> damp_one(const Vec<T>& load, const Vec<T>& rate, const T& inverse, Real share, Real dt,
+  [[gnu::always_inline]] static Damped<T> damp_one(const Vec<T>& load, const Vec<T>& rate, const T& inverse, Real share,
                                                    Real half, unsigned held = 0) {
     Damped<T> out{load, T(0)};
     for (int axis = 0; axis < 3; ++axis) {
@@ -154,34 +175,35 @@ class Verlet final : public Mover {
       const T sense = select(v > T(0), T(1), select(v < T(0), T(-1), T(0)));
       const T d = (T(-share) * size) * sense;
       out.load[axis] = f + d;
-      out.taken = out.taken - T(dt) * d * (v + T(half) * inverse * out.load[axis]);
+      out.power = out.power - d * (v + T(half) * inverse * out.load[axis]);
     }
     return out;
   }
-  void damp(Workings& w) {
-    if (*local_damping == 0) return;
-    const Real dt = w.moment().time_step;
-    const Real half = 0.5 * *beta * dt;
+  // Both kinds of damping forces; the power of the local one [W].
+  Real damp(Workings& w) {
+    if (dashpots_.any()) dashpots_.act(w.domain(), force.view(), torque.view());
+    if (*local_damping == 0) return 0;
+    const Real half = 0.5 * *beta * w.moment().time_step;
     const Real share = *local_damping;
-    damped[0] += rows::sum(count_, [=, this, v = velocity.view(), omega = spin.view(), f = force.view(), t = torque.view(),
-                                    m = mass.view(), inert = inertia.view()]<class At>(const At& at) {
+    return rows::sum(count_, [=, this, v = velocity.view(), omega = spin.view(), f = force.view(), t = torque.view(), m = mass.view(),
+                              inert = inertia.view()]<class At>(const At& at) {
       using T = typename At::Number;
       const auto both = [&]<class Row>(const Row& row, unsigned held) {
         using N = typename Row::Number;
-        const auto pushed = damp_one<N>(row(f), row(v), N(1) / row(m), share, dt, half, held);
+        const auto pushed = damp_one<N>(row(f), row(v), N(1) / row(m), share, half, held);
         row.set(f, pushed.load);
-        if (!omega) return pushed.taken;
-        const auto turned = damp_one<N>(row(t), row(omega), N(1) / row(inert), share, dt, half, held >> 3);
+        if (!omega) return pushed.power;
+        const auto turned = damp_one<N>(row(t), row(omega), N(1) / row(inert), share, half, held >> 3);
         row.set(t, turned.load);
-        return N(pushed.taken + turned.taken);
+        return N(pushed.power + turned.power);
       };
       if constexpr (At::count == 1) {
         return both(at, grips_.held(at.row));
       } else {
         if (!grips_.holds_any(at.row, At::count)) return both(at, 0);
-        T taken(0);
-        for (int k = 0; k < At::count; ++k) taken.v[k] = both(Rows<1>{at.row + k}, grips_.held(at.row + k));
-        return taken;
+        T power(0);
+        for (int k = 0; k < At::count; ++k) power.v[k] = both(Rows<1>{at.row + k}, grips_.held(at.row + k));
+        return power;
       }
     });
   }
@@ -246,6 +268,7 @@ class Verlet final : public Mover {
   Index count_ = 0;
   View<Vec3> position_;
   Grips grips_;
+  Dashpots dashpots_;
   std::vector<Vec3> before_;  // velocity and spin of each element when the step began, where beta is below 1
   StepLimit step_;
   Real stable_ = 0;
