@@ -11,6 +11,7 @@ import sys
 import tempfile
 
 import h5py
+import numpy
 
 CASE, SOURCE, BEADWORK = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 failed = []
@@ -158,7 +159,31 @@ def notched_bar():
     near("twice the strength, twice the peak", max(strong.curve("force")["force"]), 2 * peak, 0.02)
 
 
+# Young's modulus and Poisson's ratio of the packing, from the strain in its middle.
+def tension():
+    a, moduli, ratios = 5e-3, [], []
+    for axis, deck in enumerate(("quick.xml", "y.xml", "z.xml")):
+        result = run(f"tension/{deck}")
+        with h5py.File(result.folder / "run.h5") as file:
+            name = sorted(file["frames"])[-1]
+            elements = file["frames"][name]["elements"]
+            moved = elements["displacement"][:]
+            place = elements["position"][:] - moved
+        middle = (abs(place - a / 2) < 0.35 * a).all(axis=1)
+        strain = [numpy.polyfit(place[middle, c], moved[middle, c], 1)[0] for c in range(3)]
+        curve = result.curve("force")
+        force = curve["force"][curve["step"].index(int(name))]
+        moduli.append(force / a**2 / strain[axis] / 1e9)
+        ratios.append(-(sum(strain) - strain[axis]) / 2 / strain[axis])
+        below("ledger's residual over work", abs(result.energy["residual"]) / result.energy["work"], 1e-6)
+    for axis, modulus, ratio in zip("xyz", moduli, ratios):
+        near(f"E_{axis} [GPa], the paper's for E_mu = 1100 GPa", modulus, 135, 0.15)
+        near(f"nu across {axis}, the paper's for a radius ratio of 0.49", ratio, 0.24, 0.03 / 0.24)
+    below("isotropy: largest over smallest E, less 1", max(moduli) / min(moduli) - 1, 0.05)
+
+
 with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
-    {"two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar}[CASE]()
+    {"two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar,
+     "tension": tension}[CASE]()
 if failed:
     sys.exit(f"{CASE}: out of band: {', '.join(failed)}")
