@@ -6,7 +6,7 @@
 #include "core/base/text.hpp"
 #include "core/loop/connect.hpp"
 #include "core/loop/run.hpp"
-#include "core/packing/order.hpp"
+#include "core/domain/order.hpp"
 
 namespace beadwork {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/packing/blocks.hpp"
-#include "core/packing/order.hpp"
+#include "core/domain/order.hpp"
 
 namespace beadwork::packing {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/packing/cell_grid.hpp"
+#include "core/domain/neighbours.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/region.hpp"
 
