@@ -40,7 +40,8 @@ class Assembly {
   void add_families();
   void add_provided();
   void meet_readers();
-  void meet(const Plugin& reader, const FieldUse& use);
+  bool meet(const Plugin& reader, const FieldUse& use);
+  void complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names);
   void meet_names(const Plugin& reader, const ParamBase& fields);
   bool provide(On on, const std::string& name, const std::string& family);
   bool derive(const std::string& name, const Plugin& reader);
