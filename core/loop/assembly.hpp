@@ -26,6 +26,7 @@ class Assembly {
   void merge_common_into_stages();
   void check_stage(Stage& stage);
   void compile_until(Stage& stage);
+  void compile_marks(Stage& stage);
 
   // names (assembly_names.cpp)
   void check_names();
@@ -54,6 +55,7 @@ class Assembly {
   Scene& scene_;
   Stage common_;
   std::map<std::string, const Node*> until_nodes_;
+  std::map<const Watcher*, bool> waits_for_pull_;  ///< and whether something is pulled in one of its stages
   std::map<std::string, int> counts_;
 };
 

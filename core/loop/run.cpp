@@ -124,8 +124,8 @@ bool Run::sections_wanted() const {
   const Stage& now = scene_.stages[stage_number()];
   for (const Failure* failure : now.failures)
     if (moment_.step % *failure->every == 0) return true;
-  for (const Watcher* watcher : now.watchers)
-    if (scene_.section_readers.contains(watcher) && watcher->wants(moment_)) return true;
+  for (std::size_t w = 0; w < now.watchers.size(); ++w)
+    if (scene_.section_readers.contains(now.watchers[w]) && due(w)) return true;
   return false;
 }
 
@@ -180,12 +180,26 @@ void Run::break_bonds() {
 void Run::look() {
   if (!watched_) return;
   std::set<const Derived*> done;
-  for (Watcher* watcher : stage().watchers) {
-    if (!watcher->wants(moment_)) continue;
+  const auto& watchers = stage().watchers;
+  for (std::size_t w = 0; w < watchers.size(); ++w) {
+    if (!due(w)) continue;
     for (Derived* derived : scene_.derived)
       if (done.insert(derived).second) blaming(*derived, moment_, [&] { derived->derive(domain()); });
-    blaming(*watcher, moment_, [&] { watcher->look(*this); });
+    blaming(*watchers[w], moment_, [&] { watchers[w]->look(*this); });
+    const auto& marks = stage().marks[w];
+    for (std::size_t k = 0; k < marks.size(); ++k)
+      if (marks[k].reached(moment_, constraints())) looked_[stage_number()][w][k] = 1;
   }
+}
+
+// For its cadence, or at a moment of its 'at' that has not had its look.
+bool Run::due(std::size_t watcher) const {
+  const Stage& now = scene_.stages[stage_number()];
+  if (now.watchers[watcher]->wants(moment_)) return true;
+  const auto& marks = now.marks[watcher];
+  for (std::size_t k = 0; k < marks.size(); ++k)
+    if (looked_[stage_number()][watcher][k] == 0 && marks[k].reached(moment_, constraints())) return true;
+  return false;
 }
 
 void Run::bind_all() {

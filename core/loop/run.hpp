@@ -65,6 +65,7 @@ class Run final : private Workings, private Sight {
   void break_bonds();
   void log_events();
   void look();
+  bool due(std::size_t watcher) const;
   void bind_all();
   bool sections_wanted() const;
 
@@ -116,6 +117,7 @@ class Run final : private Workings, private Sight {
   std::vector<std::vector<Constraint>> constraints_;  ///< by stage
   std::vector<std::vector<Real>> until_maxima_;       ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
+  std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
   std::map<const BondTable*, Real> released_;  ///< energy of broken bonds [J]
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;

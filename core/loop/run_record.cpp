@@ -41,11 +41,19 @@ Real& Run::state(const std::string& name) { return domain().scene().column(name)
 
 namespace {
 
-// Both directions by one list, so that nothing is saved and not restored.
+// Both directions by one list, so that nothing is saved and not restored: f(name, number).
 template <class F>
-void each_state(const std::vector<std::vector<Real>>& maxima, const F& f) {
-  for (std::size_t s = 0; s < maxima.size(); ++s)
-    for (std::size_t k = 0; k < maxima[s].size(); ++k) f(s, k);
+void each_state(std::vector<std::vector<Real>>& maxima, std::vector<std::vector<std::vector<Real>>>& looked,
+                std::vector<std::vector<Constraint>>& constraints, const F& f) {
+  for (std::size_t s = 0; s < maxima.size(); ++s) {
+    for (std::size_t k = 0; k < maxima[s].size(); ++k) f(fmt::format("until.{}.{}", s, k), maxima[s][k]);
+    for (std::size_t w = 0; w < looked[s].size(); ++w)
+      for (std::size_t k = 0; k < looked[s][w].size(); ++k) f(fmt::format("looked.{}.{}.{}", s, w, k), looked[s][w][k]);
+    for (std::size_t k = 0; k < constraints[s].size(); ++k) {
+      f(fmt::format("reaction.{}.{}", s, k), constraints[s][k].reaction);
+      f(fmt::format("work.{}.{}", s, k), constraints[s][k].work);
+    }
+  }
 }
 
 }  // namespace
@@ -57,12 +65,7 @@ void Run::store_state() {
   state("bond-updates") = figures_.bond_updates;
   state("loop-seconds") = figures_.loop_seconds;
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
-  each_state(until_maxima_, [&](std::size_t s, std::size_t k) { state(fmt::format("until.{}.{}", s, k)) = until_maxima_[s][k]; });
-  for (std::size_t s = 0; s < constraints_.size(); ++s)
-    for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
-      state(fmt::format("reaction.{}.{}", s, k)) = constraints_[s][k].reaction;
-      state(fmt::format("work.{}.{}", s, k)) = constraints_[s][k].work;
-    }
+  each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
 }
 
 void Run::restore_state() {
@@ -72,12 +75,7 @@ void Run::restore_state() {
   figures_.bond_updates = state("bond-updates");
   figures_.loop_seconds = state("loop-seconds");
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
-  each_state(until_maxima_, [&](std::size_t s, std::size_t k) { until_maxima_[s][k] = state(fmt::format("until.{}.{}", s, k)); });
-  for (std::size_t s = 0; s < constraints_.size(); ++s)
-    for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
-      constraints_[s][k].reaction = state(fmt::format("reaction.{}.{}", s, k));
-      constraints_[s][k].work = state(fmt::format("work.{}.{}", s, k));
-    }
+  each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
 }
 
 void Run::save() {

@@ -47,9 +47,13 @@ void Run::add_state_columns() {
   keep("loop-seconds", "s", "Time spent in the loop");
   for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds");
   until_maxima_.resize(scene_.stages.size());
+  looked_.resize(scene_.stages.size());
   for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
     until_maxima_[s].assign(scene_.stages[s].until->memory(), 0);
     for (std::size_t k = 0; k < until_maxima_[s].size(); ++k) keep(fmt::format("until.{}.{}", s, k), "1", "Largest value so far");
+    for (const auto& marks : scene_.stages[s].marks) looked_[s].emplace_back(marks.size(), 0);
+    for (std::size_t w = 0; w < looked_[s].size(); ++w)
+      for (std::size_t k = 0; k < looked_[s][w].size(); ++k) keep(fmt::format("looked.{}.{}.{}", s, w, k), "1", "1 once the moment had its look");
     for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
       keep(fmt::format("reaction.{}.{}", s, k), "N", "Force that keeps a constraint");
       keep(fmt::format("work.{}.{}", s, k), "J", "Work of a constraint");

@@ -12,7 +12,6 @@
 
 namespace beadwork {
 
-
 /// Where the run stands.
 struct Moment {
   Real time = 0;            ///< [s]
@@ -241,9 +240,16 @@ class Watcher : public Plugin {
  public:
   static constexpr Kind kind = Kind::watch;
   Param<std::int64_t> every{
-      this, {.name = "every", .range = {1}, .doc = "Steps from one look to the next", .fallback = "100"}};
-  /// True if the watcher looks at this step; the loop then brings up to date what it reads.
-  virtual bool wants(const Moment& moment) const { return moment.step % *every == 0; }
+      this, {.name = "every", .range = {1}, .doc = "Steps from one look to the next", .fallback = "100", .instead = "at"}};
+  Param<std::string> moments{
+      this,
+      {.name = "at",
+       .doc = "Moments of single looks, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
+              "(0.3 mm), counted from the start of the stage as in 'until'; beside 'every' or instead of it",
+       .optional = true}};
+  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at', and brings up to date
+  /// what the watcher reads.
+  virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
   virtual void look(Sight& sight) = 0;
 };
 

@@ -47,6 +47,7 @@ struct ParamInfo {
   Role role = Role::plain;
   int count = 0;                       ///< of several words: how many are wanted; 0 is any number
   std::vector<Variable> variables = {};   ///< of a formula
+  std::string instead = {};            ///< an attribute that may stand in place of this one: with it there is no fallback
 };
 
 /// A formula on quantities, such as `x < 13.5 mm`.
