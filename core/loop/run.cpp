@@ -47,6 +47,7 @@ void Run::all() {
 void Run::go_through_stages() {
   const auto first = stage_number();
   for (std::size_t s = first; s < scene_.stages.size(); ++s) {
+    if (s > first) left_at_stage_end_ = beyond_work();
     moment_.stage = static_cast<int>(s);
     const bool resumed = options_.resume && s == first;
     enter(stage(), resumed);
@@ -85,6 +86,7 @@ void Run::enter(Stage& stage, bool resumed) {
   }
   for (auto& [law, table] : laws_) live_[table] = table->live();
   blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
+  if (!resumed) count_brought();
   if (!resumed) look();
 }
 

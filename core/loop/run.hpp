@@ -88,6 +88,10 @@ class Run final : private Workings, private Sight {
   void show_progress();
   RunMeta meta() const;
 
+  // the balance (run_energy.cpp)
+  void count_brought();
+  Real beyond_work() const;
+
   // Workings
   Domain& domain() override { return *scene_.domain; }
   Moment& moment() override { return moment_; }
@@ -101,6 +105,7 @@ class Run final : private Workings, private Sight {
   std::span<const Constraint> constraints() const override { return constraints_[stage_number()]; }
   const BondLaw* law(const std::string& family) const override { return scene_.law_of(family); }
   void energies(EnergySink& sink) const override;
+  Real initial_energy() const override { return initial_energy_; }
   CurveSink& curve(const CurvePlan& plan) override;
   void frame(const FramePlan& plan) override;
 
@@ -119,6 +124,8 @@ class Run final : private Workings, private Sight {
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
   std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
   std::map<const BondTable*, Real> released_;  ///< energy of broken bonds [J]
+  Real initial_energy_ = 0;     ///< there without any work [J]
+  Real left_at_stage_end_ = 0;  ///< beyond_work() when the stage before ended [J]
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;

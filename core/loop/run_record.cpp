@@ -64,6 +64,7 @@ void Run::store_state() {
   state("stage-step") = static_cast<Real>(moment_.stage_step);
   state("bond-updates") = figures_.bond_updates;
   state("loop-seconds") = figures_.loop_seconds;
+  state("initial-energy") = initial_energy_;
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
   each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
 }
@@ -74,6 +75,7 @@ void Run::restore_state() {
   moment_.stage_step = std::llround(state("stage-step"));
   figures_.bond_updates = state("bond-updates");
   figures_.loop_seconds = state("loop-seconds");
+  initial_energy_ = state("initial-energy");
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
   each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
 }
@@ -144,38 +146,6 @@ void Run::close(const std::string& status, const std::string& reason) {
     if (!recorder_->consolidate(domain(), why)) options_.warn("run.h5 still links to its frames: " + why);
   }
   write_summary();
-}
-
-namespace {
-
-// What the mover of another stage has damped counts; the elements' motion is told by the present one alone.
-class WithoutKinetic final : public EnergySink {
- public:
-  explicit WithoutKinetic(EnergySink& sink) : sink_(sink) {}
-  void work(const std::string& by, Real joule) override { sink_.work(by, joule); }
-  void stored(const std::string& in, Real joule) override { sink_.stored(in, joule); }
-  void kinetic(Real) override {}
-  void dissipated(const std::string& by, Real joule) override { sink_.dissipated(by, joule); }
-
- private:
-  EnergySink& sink_;
-};
-
-}  // namespace
-
-void Run::energies(EnergySink& sink) const {
-  for (const auto& stage : constraints_)
-    for (const Constraint& c : stage) sink.work(c.set, c.work);
-  for (const auto& [law, table] : laws_) {
-    sink.stored(law->family(), law->stored_energy(*scene_.domain, *table));
-    sink.dissipated(law->family(), law->dissipated_energy(*scene_.domain, *table));
-  }
-  for (const auto& [table, energy] : released_) sink.dissipated(table->name(), energy);
-  WithoutKinetic earlier(sink);
-  for (const auto& plugin : scene_.plugins) {
-    const bool other_mover = dynamic_cast<const Mover*>(plugin.get()) && plugin.get() != &scene_.stages[stage_number()].mover();
-    plugin->energy(other_mover ? static_cast<EnergySink&>(earlier) : sink);
-  }
 }
 
 CurveSink& Run::curve(const CurvePlan& plan) {

@@ -45,6 +45,7 @@ void Run::add_state_columns() {
   keep("stage-step", "1", "Step at which the stage began");
   keep("bond-updates", "1", "Sum over steps of live bonds");
   keep("loop-seconds", "s", "Time spent in the loop");
+  keep("initial-energy", "J", "Energy that was there without any work");
   for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds");
   until_maxima_.resize(scene_.stages.size());
   looked_.resize(scene_.stages.size());

@@ -232,6 +232,8 @@ class Sight {
   virtual const BondLaw* law(const std::string& family) const = 0;
   /// Asks every plugin for its share of the energy balance.
   virtual void energies(EnergySink& sink) const = 0;
+  /// Energy that was there without any work: when the run began, and what the start of a stage has brought [J].
+  virtual Real initial_energy() const = 0;
   virtual CurveSink& curve(const CurvePlan& plan) = 0;
   virtual void frame(const FramePlan& plan) = 0;
 };
