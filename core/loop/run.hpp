@@ -98,6 +98,7 @@ class Run final : private Workings, private Sight {
   std::vector<Constraint>& constraints() override { return constraints_[stage_number()]; }
   std::span<const std::pair<BondLaw*, BondTable*>> laws() const override { return laws_; }
   void say(const std::string& line) override { options_.say(line); }
+  void warn(const std::string& line) override { options_.warn(line); }
 
   // Sight
   const Domain& domain() const override { return *scene_.domain; }

@@ -144,7 +144,11 @@ class Workings {
   virtual void evaluate(bool settle) = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
+  /// As in Sight: the energy balance as it stands.
+  virtual void energies(EnergySink& sink) const = 0;
+  virtual Real initial_energy() const = 0;
   virtual void say(const std::string& line) = 0;
+  virtual void warn(const std::string& line) = 0;
 };
 
 class Mover : public Plugin {
