@@ -47,7 +47,7 @@ void Run::all() {
 void Run::go_through_stages() {
   const auto first = stage_number();
   for (std::size_t s = first; s < scene_.stages.size(); ++s) {
-    if (s > first) left_at_stage_end_ = beyond_work();
+    if (s > first) let_go(scene_.stages[s]);
     moment_.stage = static_cast<int>(s);
     const bool resumed = options_.resume && s == first;
     enter(stage(), resumed);

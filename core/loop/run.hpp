@@ -89,6 +89,7 @@ class Run final : private Workings, private Sight {
   RunMeta meta() const;
 
   // the balance (run_energy.cpp)
+  void let_go(const Stage& next);
   void count_brought();
   Real beyond_work() const;
 
@@ -124,7 +125,7 @@ class Run final : private Workings, private Sight {
   std::vector<std::vector<Real>> until_maxima_;       ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
   std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
-  std::map<const BondTable*, Real> released_;  ///< energy of broken bonds [J]
+  std::map<const BondTable*, Real> released_;  ///< energy of broken bonds, and of families that act no longer [J]
   Real initial_energy_ = 0;     ///< there without any work [J]
   Real left_at_stage_end_ = 0;  ///< beyond_work() when the stage before ended [J]
   std::map<const BondTable*, Index> live_;

@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "core/loop/run.hpp"
 
 namespace beadwork {
@@ -39,6 +43,20 @@ Real Run::beyond_work() const {
   EnergySums sums;
   energies(sums);
   return sums.beyond_work();
+}
+
+// A family that does not stand in the next stage pulls no longer: what its bonds hold is lost to the balance, and what they
+// have dissipated stays booked.
+void Run::let_go(const Stage& next) {
+  std::erase_if(laws_, [&](const auto& acting) {
+    const auto& [law, table] = acting;
+    if (std::find(next.laws.begin(), next.laws.end(), law) != next.laws.end()) return false;
+    const Real held = law->stored_energy(domain(), *table);
+    released_[table] += held + law->dissipated_energy(domain(), *table);
+    options_.say(fmt::format("bond family '{}' acts no longer: the {:.4g} J that it held are booked as dissipated", law->family(), held));
+    return true;
+  });
+  left_at_stage_end_ = beyond_work();
 }
 
 // At the start of a stage: velocities that were given, and whatever else came without work.
