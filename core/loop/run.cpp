@@ -24,24 +24,32 @@ Run::~Run() = default;
 
 void Run::all() {
   try {
-    if (options_.resume)
-      load();
-    else
-      fill();
-    open_record();
-    go_through_stages();
-    close("done", figures_.exit_reason);
-  } catch (const Interrupted& stop) {
-    save();
-    close("interrupted", stop.what());
-    throw;
-  } catch (const PhysicsFailure& failure) {
-    close("failed", failure.what());
-    throw;
-  } catch (const std::exception& failure) {
-    close("failed", failure.what());
+    try {
+      begin();
+      go_through_stages();
+      close("done", figures_.exit_reason);
+    } catch (const Interrupted& stop) {
+      if (can_be_saved()) save();
+      close("interrupted", stop.what());
+      throw;
+    } catch (const MachineFailure&) {
+      throw;
+    } catch (const std::exception& failure) {
+      close("failed", failure.what());
+      throw;
+    }
+  } catch (const MachineFailure& failure) {
+    rescue(failure.what());
     throw;
   }
+}
+
+void Run::begin() {
+  if (options_.resume)
+    load();
+  else
+    fill();
+  open_record();
 }
 
 void Run::go_through_stages() {
@@ -64,6 +72,7 @@ void Run::go_through_stages() {
 }
 
 void Run::enter(Stage& stage, bool resumed) {
+  whole_ = false;
   if (!resumed) {
     moment_.stage_start = moment_.time;
     moment_.stage_step = moment_.step;
@@ -87,7 +96,12 @@ void Run::enter(Stage& stage, bool resumed) {
   for (auto& [law, table] : laws_) live_[table] = table->live();
   blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
   if (!resumed) count_brought();
-  if (!resumed) look();
+  if (watched_) reserve_room();
+  whole_ = true;
+  if (!resumed)
+    look();
+  else if (owed_ > 0)
+    look(stage.watchers.size() - owed_);
 }
 
 bool Run::over() {
@@ -99,11 +113,13 @@ bool Run::over() {
 
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
 void Run::step() {
+  whole_ = false;
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
   log_events();
   break_bonds();
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
+  whole_ = true;
   look();
 }
 
@@ -179,11 +195,12 @@ void Run::break_bonds() {
   }
 }
 
-void Run::look() {
+void Run::look(std::size_t first) {
   if (!watched_) return;
   std::set<const Derived*> done;
   const auto& watchers = stage().watchers;
-  for (std::size_t w = 0; w < watchers.size(); ++w) {
+  for (std::size_t w = first; w < watchers.size(); ++w) {
+    owed_ = watchers.size() - w;
     if (!due(w)) continue;
     for (Derived* derived : scene_.derived)
       if (done.insert(derived).second) blaming(*derived, moment_, [&] { derived->derive(domain()); });
@@ -192,6 +209,7 @@ void Run::look() {
     for (std::size_t k = 0; k < marks.size(); ++k)
       if (marks[k].reached(moment_, constraints())) looked_[stage_number()][w][k] = 1;
   }
+  owed_ = 0;
 }
 
 // For its cadence, or at a moment of its 'at' that has not had its look.
