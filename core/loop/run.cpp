@@ -45,6 +45,7 @@ void Run::all() {
 }
 
 void Run::begin() {
+  pause();
   if (options_.resume)
     load();
   else

@@ -74,6 +74,7 @@ class Run final : private Workings, private Sight {
 
   // before the loop (run_setup.cpp)
   void fill();
+  void pause() const;
   void add_state_columns();
   void create_families(Stage& stage);
   void gather_constraints();

@@ -21,8 +21,11 @@ void Run::fill() {
     return (std::filesystem::path(scene_.deck_path).parent_path() / path).string();
   };
   job.in_progress = &in_progress;
-  for (Filler* filler : scene_.fillers)
+  job.pause = [&] { pause(); };
+  for (Filler* filler : scene_.fillers) {
+    pause();
     if (!filler->after_filling()) filler->fill(domain(), job);
+  }
   if (domain().size() == 0)
     throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene_.deck_path));
 
@@ -33,6 +36,14 @@ void Run::fill() {
   bind_all();
   for (Filler* filler : scene_.fillers)
     if (filler->after_filling()) filler->fill(domain(), job);
+}
+
+// Before the first step there is nothing to save.
+void Run::pause() const {
+  if (!options_.interrupt || !*options_.interrupt) return;
+  throw Interrupted(fmt::format("interrupted before the first step; {} with: beadwork run {} --out {} {}",
+                                options_.resume ? "go on" : "nothing is saved yet, begin again", scene_.deck_path, folder_.root().string(),
+                                options_.resume ? "--resume" : "--overwrite"));
 }
 
 // What the loop itself has to remember, as columns of the scene.
@@ -67,6 +78,7 @@ void Run::create_families(Stage& stage) {
   Index next_id = domain().bonds();
   for (BondLaw* law : stage.laws) {
     if (scene_.first_stage(*law) != stage_number()) continue;
+    if (moment_.step == 0) pause();
     BondTable& table = *domain().find_family(law->family());
     table.create(pairs_to_bond(*law, domain()), next_id);
     next_id += table.size();

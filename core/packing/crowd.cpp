@@ -10,6 +10,7 @@ namespace beadwork::packing {
 
 Crowd crowd_of(const Packing& packing, std::vector<Index>& order) {
   Crowd crowd;
+  crowd.pause = packing.pause;
   crowd.origin = centre(packing.region);
   Real sum = 0;
   for (const Real r : packing.radius) sum += r;

@@ -31,6 +31,8 @@ struct FillJob {
   std::function<void(const std::string&)> warn;
   std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
   std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
+  /// To be called now and then in long work: throws Interrupted if the user wants to stop.
+  std::function<void()> pause = [] {};
   /// What the steps of one filling hand on to one another, by the name of the set that is filled.
   std::map<std::string, std::any>* in_progress = nullptr;
 };
