@@ -122,7 +122,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder");
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
-  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 
