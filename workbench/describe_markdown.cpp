@@ -20,7 +20,8 @@ std::string code(const std::string& text) { return text.empty() ? "" : "`" + tex
 
 std::string row_of(const ParamBase& param) {
   const ParamInfo& info = param.info();
-  const std::string fallback = info.fallback ? code(*info.fallback) : param.needed() ? "**required**" : "optional";
+  const std::string only = info.instead.empty() ? "" : fmt::format(" where there is no {}", code(info.instead));
+  const std::string fallback = info.fallback ? code(*info.fallback) + only : param.needed() ? "**required**" : "optional";
   std::string doc = info.doc;
   if (!info.variables.empty()) {
     std::vector<std::string> names;

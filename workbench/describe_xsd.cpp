@@ -56,7 +56,7 @@ std::string attribute(const ParamBase& param) {
   const ParamInfo& info = param.info();
   std::string doc = fmt::format("{} ({}", info.doc, type_words(param));
   if (const std::string range = range_words(param); !range.empty()) doc += ", " + range;
-  doc += info.fallback ? fmt::format("; default {})", *info.fallback) : ")";
+  doc += info.fallback ? fmt::format("; default {}{})", *info.fallback, info.instead.empty() ? "" : " where there is no " + info.instead) : ")";
   const std::string type = info.choices.empty() ? fmt::format(" type=\"{}\"", type_of_param(param)) : "";
   std::string text = fmt::format("    <xs:attribute name=\"{}\"{}{}>\n", info.name, type, param.needed() ? " use=\"required\"" : "");
   text += doc_of(doc, "      ");

@@ -17,6 +17,7 @@ void DeckArguments::add_to(CLI::App& verb) {
 
 std::string shown(const Fault& fault) {
   const std::string text = fault.what();
+  if (fault.code() == ExitCode::interrupted) return text;
   return text.find("error: ") == std::string::npos ? "error: " + text : text;
 }
 

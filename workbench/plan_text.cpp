@@ -28,10 +28,14 @@ std::string labels(const List& list) {
   return join(all);
 }
 
+// "snapshot (every 100 steps, at 0.3 mm, 1 ms)"
 std::string with_cadence(const Plugin& plugin) {
+  std::vector<std::string> when;
   const ParamBase* every = plugin.param("every");
-  if (!every || !every->given() || every->text() == "1") return label(plugin);
-  return fmt::format("{} (every {} steps)", label(plugin), every->text());
+  if (every && every->given() && every->text() != "1") when.push_back(fmt::format("every {} steps", every->text()));
+  if (const auto* watcher = dynamic_cast<const Watcher*>(&plugin); watcher && watcher->moments.given())
+    when.push_back("at " + *watcher->moments);
+  return when.empty() ? label(plugin) : fmt::format("{} ({})", label(plugin), join(when));
 }
 
 template <class List>

@@ -71,7 +71,10 @@ std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder, const RunArgum
 }
 
 int run(const RunArguments& arguments) {
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
   Loaded loaded = load_scene(arguments.deck);
+  if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
   const auto log = make_log(folder, arguments);
   Progress progress(*log);
@@ -84,8 +87,6 @@ int run(const RunArguments& arguments) {
   options.say = [&](const std::string& line) { log->info(line); };
   options.warn = [&](const std::string& line) { log->warn("warning: " + line); };
   options.progress = [&](double fraction, const std::string& text) { progress(fraction, text); };
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
 
   log->info("beadwork {} runs {} on {} threads ({} instructions) into {}", version, arguments.deck.path, options.threads,
             loaded.catalogue.instructions(), arguments.out);
@@ -95,7 +96,7 @@ int run(const RunArguments& arguments) {
     job.all();
   } catch (const Fault& fault) {
     progress.end();
-    log->error("{}", fault.code() == ExitCode::interrupted ? fault.what() : shown(fault));
+    log->error("{}", shown(fault));
     return static_cast<int>(fault.code());
   } catch (const std::exception& error) {
     progress.end();
@@ -121,7 +122,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder");
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
-  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 

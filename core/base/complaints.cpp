@@ -27,6 +27,24 @@ std::string_view line_of(std::string_view text, int line) {
 
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
+// Length of the character in UTF-8 that the text begins with; 0 if its first byte begins none.
+std::size_t character_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if (starts_character(text[k])) return 0;
+  return length;
+}
+
+// What a terminal shows of a character: bytes that are no text are spelt out.
+std::string visible(std::string_view text, std::size_t length) {
+  const auto byte = static_cast<unsigned char>(text[0]);
+  if (length > 1 || (byte >= 0x20 && byte < 0x7F) || byte == '\t') return std::string(text.substr(0, length));
+  constexpr char digits[] = "0123456789ABCDEF";
+  return {'\\', 'x', digits[byte / 16], digits[byte % 16]};
+}
+
 // The source line and a caret below the column. Tabs are repeated in the line of the caret, so that it stands
 // right.
 std::string excerpt(const Location& at) {
@@ -36,13 +54,16 @@ std::string excerpt(const Location& at) {
       at.column > static_cast<int>(widest_line) * 3 / 4 ? at.column - static_cast<int>(widest_line) / 2 : 1;
   std::string shown, padding;
   int column = 0;
-  for (char c : line) {
-    if (starts_character(c)) ++column;
+  for (std::size_t k = 0; k < line.size();) {
+    const std::string_view rest = line.substr(k);
+    const std::size_t length = character_length(rest);
+    if (starts_character(line[k])) ++column;
+    k += std::max<std::size_t>(length, 1);
     if (column < first) continue;
     if (column >= first + static_cast<int>(widest_line)) break;
-    const bool unprintable = static_cast<unsigned char>(c) < 0x20 && c != '\t';
-    shown += unprintable ? '?' : c;
-    if (column < at.column && starts_character(c)) padding += c == '\t' ? '\t' : ' ';
+    const std::string piece = visible(rest, length);
+    shown += piece;
+    if (column < at.column) padding += piece == "\t" ? "\t" : std::string(length > 1 ? 1 : piece.size(), ' ');
   }
   if (column + 1 < at.column)
     padding.append(static_cast<std::size_t>(at.column - column - 1), ' ');  // behind its end

@@ -39,7 +39,9 @@ void sync_folder_of(const std::filesystem::path& file) {
 }  // namespace
 
 MachineFailure file_failure(std::string_view doing, const std::filesystem::path& file, int error) {
-  return MachineFailure(fmt::format("cannot {} '{}': {}.{}", doing, file.string(), std::strerror(error), remedy(error)));
+  const bool full = error == ENOSPC || error == EDQUOT;
+  const std::string why = full ? fmt::format("the disk is full ({})", std::strerror(error)) : std::strerror(error);
+  return MachineFailure(fmt::format("cannot {} '{}': {}.{}", doing, file.string(), why, remedy(error)));
 }
 
 Descriptor::Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
@@ -84,6 +86,19 @@ void write_atomically(const std::filesystem::path& file, std::initializer_list<s
       if (const int error = write_all(out.number(), bytes.data(), bytes.size())) drop_part(part, file, error);
   }
   put_in_place(part, file);
+}
+
+void reserve(const std::filesystem::path& file, std::uintmax_t size) {
+  const Descriptor out(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (!out) throw file_failure("write", file, errno);
+  if (const int error = ::posix_fallocate(out.number(), 0, static_cast<off_t>(size))) throw file_failure("write", file, error);
+}
+
+void overwrite(const std::filesystem::path& file, std::string_view text) {
+  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+  if (!out) throw file_failure("write", file, errno);
+  if (const int error = write_all(out.number(), text.data(), text.size())) throw file_failure("write", file, error);
+  if (::ftruncate(out.number(), static_cast<off_t>(text.size())) != 0) throw file_failure("write", file, errno);
 }
 
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file) {

@@ -2,6 +2,7 @@
 // Files that are there whole or not at all, and failures that say which file and why.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <span>
@@ -44,7 +45,14 @@ std::filesystem::path part_of(const std::filesystem::path& file);
 void write_atomically(const std::filesystem::path& file, std::string_view text);
 void write_atomically(const std::filesystem::path& file, std::initializer_list<std::span<const std::byte>> parts);
 
-/// The second half of the above, for a part file that somebody else has written and closed.
+/// Takes that much room on the disk for a file beforehand; the file is made if need be. Throws MachineFailure.
+void reserve(const std::filesystem::path& file, std::uintmax_t size);
+
+/// Writes over what the file holds, in the room that it has already: for a disk that is full, and short texts only, since a
+/// kill in between would tear it. Throws MachineFailure.
+void overwrite(const std::filesystem::path& file, std::string_view text);
+
+/// The second half of write_atomically, for a part file that somebody else has written and closed.
 void put_in_place(const std::filesystem::path& part, const std::filesystem::path& file);
 
 }  // namespace beadwork

@@ -1,6 +1,5 @@
 #include "core/io/recorder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -148,13 +147,6 @@ void set_aside(const path& record, const path& frames_folder) {
   if (::rename(record.c_str(), aside.c_str()) != 0) throw file_failure("set aside", record, errno);
 }
 
-// Asks the system for the space beforehand: HDF5 does not survive a disk that fills up while it copies an object.
-void reserve(const path& part, std::uintmax_t size) {
-  const Descriptor out(::open(part.c_str(), O_RDWR | O_CLOEXEC));
-  if (!out) throw file_failure("write", part, errno);
-  if (const int error = ::posix_fallocate(out.number(), 0, static_cast<off_t>(size))) throw file_failure("write", part, error);
-}
-
 }  // namespace
 
 Recorder::Recorder(const RunFolder& folder, RunMeta meta, Options options)
@@ -265,7 +257,7 @@ std::uintmax_t Recorder::write_one_file(const path& part, const Domain& domain) 
   const h5::Handle access = h5::take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file");
   H5Pset_file_locking(access.id(), false, true);
   const h5::Handle out = h5::take(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
-  reserve(part, room_for_one_file());
+  reserve(part, room_for_one_file());  // HDF5 does not survive a disk that fills up while it copies an object
   write_all_but_frames(out.id(), meta_, domain);
   const h5::Handle frames = h5::make_group(out.id(), "frames");
   for (const auto& [step, source] : frames_) {

@@ -62,6 +62,8 @@ void Assembly::run() {
   merge_common_into_stages();
   check_names();
   for (Stage& stage : scene_.stages) check_stage(stage);
+  for (const auto& [watcher, pulled] : waits_for_pull_)
+    if (!pulled) complaints_.error(watcher->moments.at(), "'at' waits for a displacement, but nothing in <load> is pulled");
   if (std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
   deck_.scope.complain_about_unused(complaints_);
@@ -197,6 +199,7 @@ void Assembly::check_stage(Stage& stage) {
     return;
   }
   compile_until(stage);
+  compile_marks(stage);
 }
 
 void Assembly::compile_until(Stage& stage) {
@@ -228,6 +231,19 @@ void Assembly::compile_until(Stage& stage) {
     for (const Load* load : stage.loads)
       for (const Constraint& c : load->constraints()) driven |= c.driven && c.set == set;
     if (!driven) complaints_.error(at, fmt::format("'until' watches set '{}', which nothing in <load> drives", set));
+  }
+}
+
+// The moments of a watcher that stands outside of the stages count anew in each.
+void Assembly::compile_marks(Stage& stage) {
+  for (const Watcher* watcher : stage.watchers) {
+    auto& marks = stage.marks.emplace_back();
+    if (!watcher->moments.given()) continue;
+    marks = Mark::list(*watcher->moments, "at", watcher->moments.at(), deck_.scope, complaints_);
+    if (std::none_of(marks.begin(), marks.end(), [](const Mark& m) { return m.what == Mark::What::displacement; })) continue;
+    bool& pulled = waits_for_pull_[watcher];
+    for (const Load* load : stage.loads)
+      for (const Constraint& c : load->constraints()) pulled |= c.driven;
   }
 }
 

@@ -26,6 +26,7 @@ class Assembly {
   void merge_common_into_stages();
   void check_stage(Stage& stage);
   void compile_until(Stage& stage);
+  void compile_marks(Stage& stage);
 
   // names (assembly_names.cpp)
   void check_names();
@@ -40,7 +41,8 @@ class Assembly {
   void add_families();
   void add_provided();
   void meet_readers();
-  void meet(const Plugin& reader, const FieldUse& use);
+  bool meet(const Plugin& reader, const FieldUse& use);
+  void complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names);
   void meet_names(const Plugin& reader, const ParamBase& fields);
   bool provide(On on, const std::string& name, const std::string& family);
   bool derive(const std::string& name, const Plugin& reader);
@@ -53,6 +55,7 @@ class Assembly {
   Scene& scene_;
   Stage common_;
   std::map<std::string, const Node*> until_nodes_;
+  std::map<const Watcher*, bool> waits_for_pull_;  ///< and whether something is pulled in one of its stages
   std::map<std::string, int> counts_;
 };
 

@@ -61,27 +61,34 @@ void Assembly::meet_readers() {
   // By index: a reader may bring in a plugin that derives a field, which then reads itself.
   for (std::size_t p = 0; p < scene_.plugins.size(); ++p) {
     const Plugin& plugin = *scene_.plugins[p];
+    std::map<On, std::vector<std::string>> missing;
     for (const FieldUse* use : plugin.uses())
-      if (use->wanted() && use->verb() == Verb::reads) meet(plugin, *use);
+      if (use->wanted() && use->verb() == Verb::reads && !meet(plugin, *use)) missing[use->field().on].push_back(use->field().name);
+    for (const auto& [on, names] : missing) complain_of_missing(plugin, on, names);
     for (const ParamBase* param : plugin.params())
       if (param->info().role == Role::fields && param->given()) meet_names(plugin, *param);
   }
 }
 
-void Assembly::meet(const Plugin& reader, const FieldUse& use) {
+bool Assembly::meet(const Plugin& reader, const FieldUse& use) {
   const On on = use.field().on;
   Table* table = table_of(reader, on);
-  if (!table) return;
+  if (!table) return true;  // that there is no such family has been said
   if (on == On::bonds && provide(on, use.field().name, reader.family())) {
     scene_.section_readers.insert(&reader);
-    return;
+    return true;
   }
-  if (on == On::elements && derive(use.field().name, reader)) return;
-  if (table->find(reader.column_name(use)) || provide(on, use.field().name, reader.family())) return;
+  if (on == On::elements && derive(use.field().name, reader)) return true;
+  return table->find(reader.column_name(use)) || provide(on, use.field().name, reader.family());
+}
+
+void Assembly::complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names) {
   const std::string holder = on == On::bonds ? fmt::format("bond family '{}'", reader.family()) : "the elements";
-  complaints_.error(reader.at(), fmt::format("<{}> reads '{}' of {}, which nothing in this deck provides{}", reader.tag(),
-                                             use.field().name, holder,
-                                             did_you_mean(use.field().name, providable(on, reader.family()))));
+  std::string listed;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    listed += fmt::format("{}'{}'", k == 0 ? "" : k + 1 == names.size() ? " and " : ", ", names[k]);
+  complaints_.error(reader.at(), fmt::format("<{}> reads {} of {}, which nothing in this deck provides{}", reader.tag(), listed, holder,
+                                             did_you_mean(names.size() == 1 ? names.front() : "", providable(on, reader.family()))));
 }
 
 // Fields asked for by name, wherever they are: on the elements, on every family that has them.
@@ -97,7 +104,7 @@ void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
     std::vector<std::string> known = providable(On::elements, "");
     for (const std::string& family : scene_.families)
       for (const std::string& more : providable(On::bonds, family)) known.push_back(more);
-    complaints_.error(fields.at(), fmt::format("'{}' names field \"{}\", which nothing in this deck provides{}", fields.info().name,
+    complaints_.error(fields.at(name), fmt::format("'{}' names field \"{}\", which nothing in this deck provides{}", fields.info().name,
                                                name, did_you_mean(name, known)));
   }
 }
@@ -153,6 +160,7 @@ std::vector<std::string> Assembly::providable(On on, const std::string& family) 
     if (const BondTable* there = scene_.domain->find_family(family)) table = &there->rows();
   if (table)
     for (const Column* column : table->columns()) names.insert(column->field().name);
+  for (const char* own : {"id", "first", "second", "target"}) names.erase(own);  // what the core keeps for itself
   for (const auto& plugin : scene_.plugins)
     for (const FieldUse* use : plugin->uses())
       if (use->wanted() && use->verb() == Verb::writes && use->field().on == on && (on != On::bonds || plugin->family() == family))

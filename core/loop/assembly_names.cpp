@@ -29,7 +29,7 @@ void Assembly::check_uses_of(Role role, const std::string& what, const std::set<
       if (p->info().role != role) continue;
       for (const std::string& name : p->names())
         if (!known.contains(name))
-          complaints_.error(p->at(), fmt::format("'{}' names {} \"{}\"{}", p->info().name, what, name,
+          complaints_.error(p->at(name), fmt::format("'{}' names {} \"{}\"{}", p->info().name, what, name,
                                                  known.empty() ? ", but the deck makes none"
                                                                : did_you_mean(name, {known.begin(), known.end()})));
     }

@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/failure.hpp"
-
-#include "core/packing/cell_grid.hpp"
+#include "core/domain/neighbours.hpp"
 
 namespace beadwork {
 

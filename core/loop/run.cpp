@@ -24,29 +24,39 @@ Run::~Run() = default;
 
 void Run::all() {
   try {
-    if (options_.resume)
-      load();
-    else
-      fill();
-    open_record();
-    go_through_stages();
-    close("done", figures_.exit_reason);
-  } catch (const Interrupted& stop) {
-    save();
-    close("interrupted", stop.what());
-    throw;
-  } catch (const PhysicsFailure& failure) {
-    close("failed", failure.what());
-    throw;
-  } catch (const std::exception& failure) {
-    close("failed", failure.what());
+    try {
+      begin();
+      go_through_stages();
+      close("done", figures_.exit_reason);
+    } catch (const Interrupted& stop) {
+      if (can_be_saved()) save();
+      close("interrupted", stop.what());
+      throw;
+    } catch (const MachineFailure&) {
+      throw;
+    } catch (const std::exception& failure) {
+      close("failed", failure.what());
+      throw;
+    }
+  } catch (const MachineFailure& failure) {
+    rescue(failure.what());
     throw;
   }
+}
+
+void Run::begin() {
+  pause();
+  if (options_.resume)
+    load();
+  else
+    fill();
+  open_record();
 }
 
 void Run::go_through_stages() {
   const auto first = stage_number();
   for (std::size_t s = first; s < scene_.stages.size(); ++s) {
+    if (s > first) let_go(scene_.stages[s]);
     moment_.stage = static_cast<int>(s);
     const bool resumed = options_.resume && s == first;
     enter(stage(), resumed);
@@ -63,6 +73,7 @@ void Run::go_through_stages() {
 }
 
 void Run::enter(Stage& stage, bool resumed) {
+  whole_ = false;
   if (!resumed) {
     moment_.stage_start = moment_.time;
     moment_.stage_step = moment_.step;
@@ -85,7 +96,13 @@ void Run::enter(Stage& stage, bool resumed) {
   }
   for (auto& [law, table] : laws_) live_[table] = table->live();
   blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
-  if (!resumed) look();
+  if (!resumed) count_brought();
+  if (watched_) reserve_room();
+  whole_ = true;
+  if (!resumed)
+    look();
+  else if (owed_ > 0)
+    look(stage.watchers.size() - owed_);
 }
 
 bool Run::over() {
@@ -97,11 +114,13 @@ bool Run::over() {
 
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
 void Run::step() {
+  whole_ = false;
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
   log_events();
   break_bonds();
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
+  whole_ = true;
   look();
 }
 
@@ -124,8 +143,8 @@ bool Run::sections_wanted() const {
   const Stage& now = scene_.stages[stage_number()];
   for (const Failure* failure : now.failures)
     if (moment_.step % *failure->every == 0) return true;
-  for (const Watcher* watcher : now.watchers)
-    if (scene_.section_readers.contains(watcher) && watcher->wants(moment_)) return true;
+  for (std::size_t w = 0; w < now.watchers.size(); ++w)
+    if (scene_.section_readers.contains(now.watchers[w]) && due(w)) return true;
   return false;
 }
 
@@ -177,15 +196,31 @@ void Run::break_bonds() {
   }
 }
 
-void Run::look() {
+void Run::look(std::size_t first) {
   if (!watched_) return;
   std::set<const Derived*> done;
-  for (Watcher* watcher : stage().watchers) {
-    if (!watcher->wants(moment_)) continue;
+  const auto& watchers = stage().watchers;
+  for (std::size_t w = first; w < watchers.size(); ++w) {
+    owed_ = watchers.size() - w;
+    if (!due(w)) continue;
     for (Derived* derived : scene_.derived)
       if (done.insert(derived).second) blaming(*derived, moment_, [&] { derived->derive(domain()); });
-    blaming(*watcher, moment_, [&] { watcher->look(*this); });
+    blaming(*watchers[w], moment_, [&] { watchers[w]->look(*this); });
+    const auto& marks = stage().marks[w];
+    for (std::size_t k = 0; k < marks.size(); ++k)
+      if (marks[k].reached(moment_, constraints())) looked_[stage_number()][w][k] = 1;
   }
+  owed_ = 0;
+}
+
+// For its cadence, or at a moment of its 'at' that has not had its look.
+bool Run::due(std::size_t watcher) const {
+  const Stage& now = scene_.stages[stage_number()];
+  if (now.watchers[watcher]->wants(moment_)) return true;
+  const auto& marks = now.marks[watcher];
+  for (std::size_t k = 0; k < marks.size(); ++k)
+    if (looked_[stage_number()][watcher][k] == 0 && marks[k].reached(moment_, constraints())) return true;
+  return false;
 }
 
 void Run::bind_all() {

@@ -18,6 +18,7 @@ struct RunOptions {
   int threads = 1;
   bool resume = false;
   Real checkpoint_seconds = 600;               ///< wall time between checkpoints
+  Real first_checkpoint_seconds = 60;          ///< until the first one, where that is less
   const std::atomic<int>* interrupt = nullptr;  ///< not zero: write a checkpoint and stop
   std::function<void(const std::string&)> say = [](const std::string&) {};
   std::function<void(const std::string&)> warn = [](const std::string&) {};
@@ -47,7 +48,8 @@ class Run final : private Workings, private Sight {
   Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options);
   ~Run() override;
 
-  /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved.
+  /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved,
+  /// as far as the machine lets it.
   void all();
   /// Instead of all(): fills, bonds, and goes on for some seconds of wall time. Nothing is recorded.
   Trial trial(Real seconds);
@@ -57,6 +59,7 @@ class Run final : private Workings, private Sight {
   using Clock = std::chrono::steady_clock;
 
   // the loop (run.cpp)
+  void begin();
   void go_through_stages();
   void enter(Stage& stage, bool resumed);
   bool over();
@@ -64,12 +67,14 @@ class Run final : private Workings, private Sight {
   void evaluate(bool settle) override;
   void break_bonds();
   void log_events();
-  void look();
+  void look(std::size_t first = 0);
+  bool due(std::size_t watcher) const;
   void bind_all();
   bool sections_wanted() const;
 
   // before the loop (run_setup.cpp)
   void fill();
+  void pause() const;
   void add_state_columns();
   void create_families(Stage& stage);
   void gather_constraints();
@@ -83,9 +88,18 @@ class Run final : private Workings, private Sight {
   void load();
   void save_now_and_then();
   void write_summary();
+  std::string summary() const;
   void close(const std::string& status, const std::string& reason);
+  void rescue(const std::string& reason);
+  bool can_be_saved() const;
+  void reserve_room() const;
   void show_progress();
   RunMeta meta() const;
+
+  // the balance (run_energy.cpp)
+  void let_go(const Stage& next);
+  void count_brought();
+  Real beyond_work() const;
 
   // Workings
   Domain& domain() override { return *scene_.domain; }
@@ -93,6 +107,7 @@ class Run final : private Workings, private Sight {
   std::vector<Constraint>& constraints() override { return constraints_[stage_number()]; }
   std::span<const std::pair<BondLaw*, BondTable*>> laws() const override { return laws_; }
   void say(const std::string& line) override { options_.say(line); }
+  void warn(const std::string& line) override { options_.warn(line); }
 
   // Sight
   const Domain& domain() const override { return *scene_.domain; }
@@ -100,6 +115,7 @@ class Run final : private Workings, private Sight {
   std::span<const Constraint> constraints() const override { return constraints_[stage_number()]; }
   const BondLaw* law(const std::string& family) const override { return scene_.law_of(family); }
   void energies(EnergySink& sink) const override;
+  Real initial_energy() const override { return initial_energy_; }
   CurveSink& curve(const CurvePlan& plan) override;
   void frame(const FramePlan& plan) override;
 
@@ -116,13 +132,20 @@ class Run final : private Workings, private Sight {
   std::vector<std::vector<Constraint>> constraints_;  ///< by stage
   std::vector<std::vector<Real>> until_maxima_;       ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
-  std::map<const BondTable*, Real> released_;  ///< energy of broken bonds [J]
+  std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
+  std::size_t owed_ = 0;  ///< watchers of this stage that have not had their turn at this step, last in the order
+  bool whole_ = false;    ///< the state is that at the end of a step
+  std::map<const BondTable*, Real> released_;  ///< energy of broken bonds, and of families that act no longer [J]
+  Real initial_energy_ = 0;     ///< there without any work [J]
+  Real left_at_stage_end_ = 0;  ///< beyond_work() when the stage before ended [J]
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
   std::optional<Recorder> recorder_;
   std::int64_t resumed_at_ = -1;
   bool watched_ = true;  ///< false in a trial: no watcher looks
+  bool has_checkpoint_ = false;
+  std::int64_t saved_step_ = 0;  ///< of the newest checkpoint
   Clock::time_point began_, saved_, shown_;
 };
 

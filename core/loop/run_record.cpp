@@ -41,11 +41,19 @@ Real& Run::state(const std::string& name) { return domain().scene().column(name)
 
 namespace {
 
-// Both directions by one list, so that nothing is saved and not restored.
+// Both directions by one list, so that nothing is saved and not restored: f(name, number).
 template <class F>
-void each_state(const std::vector<std::vector<Real>>& maxima, const F& f) {
-  for (std::size_t s = 0; s < maxima.size(); ++s)
-    for (std::size_t k = 0; k < maxima[s].size(); ++k) f(s, k);
+void each_state(std::vector<std::vector<Real>>& maxima, std::vector<std::vector<std::vector<Real>>>& looked,
+                std::vector<std::vector<Constraint>>& constraints, const F& f) {
+  for (std::size_t s = 0; s < maxima.size(); ++s) {
+    for (std::size_t k = 0; k < maxima[s].size(); ++k) f(fmt::format("until.{}.{}", s, k), maxima[s][k]);
+    for (std::size_t w = 0; w < looked[s].size(); ++w)
+      for (std::size_t k = 0; k < looked[s][w].size(); ++k) f(fmt::format("looked.{}.{}.{}", s, w, k), looked[s][w][k]);
+    for (std::size_t k = 0; k < constraints[s].size(); ++k) {
+      f(fmt::format("reaction.{}.{}", s, k), constraints[s][k].reaction);
+      f(fmt::format("work.{}.{}", s, k), constraints[s][k].work);
+    }
+  }
 }
 
 }  // namespace
@@ -56,13 +64,10 @@ void Run::store_state() {
   state("stage-step") = static_cast<Real>(moment_.stage_step);
   state("bond-updates") = figures_.bond_updates;
   state("loop-seconds") = figures_.loop_seconds;
+  state("initial-energy") = initial_energy_;
+  state("looks-owed") = static_cast<Real>(owed_);
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
-  each_state(until_maxima_, [&](std::size_t s, std::size_t k) { state(fmt::format("until.{}.{}", s, k)) = until_maxima_[s][k]; });
-  for (std::size_t s = 0; s < constraints_.size(); ++s)
-    for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
-      state(fmt::format("reaction.{}.{}", s, k)) = constraints_[s][k].reaction;
-      state(fmt::format("work.{}.{}", s, k)) = constraints_[s][k].work;
-    }
+  each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
 }
 
 void Run::restore_state() {
@@ -71,13 +76,10 @@ void Run::restore_state() {
   moment_.stage_step = std::llround(state("stage-step"));
   figures_.bond_updates = state("bond-updates");
   figures_.loop_seconds = state("loop-seconds");
+  initial_energy_ = state("initial-energy");
+  owed_ = static_cast<std::size_t>(state("looks-owed"));
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
-  each_state(until_maxima_, [&](std::size_t s, std::size_t k) { until_maxima_[s][k] = state(fmt::format("until.{}.{}", s, k)); });
-  for (std::size_t s = 0; s < constraints_.size(); ++s)
-    for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
-      constraints_[s][k].reaction = state(fmt::format("reaction.{}.{}", s, k));
-      constraints_[s][k].work = state(fmt::format("work.{}.{}", s, k));
-    }
+  each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
 }
 
 void Run::save() {
@@ -94,6 +96,8 @@ void Run::save() {
   meta.texts["packing"] = "[" + join(figures_.packing_reports, ",") + "]";
   save_checkpoint(folder_.checkpoint(), domain(), meta);
   saved_ = Clock::now();
+  has_checkpoint_ = true;
+  saved_step_ = moment_.step;
 }
 
 void Run::load() {
@@ -106,6 +110,8 @@ void Run::load() {
   resumed_at_ = meta.step;
   for (const auto& report : nlohmann::json::parse(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
   restore_state();
+  has_checkpoint_ = true;
+  saved_step_ = meta.step;
   options_.say(fmt::format("resumed at step {}", moment_.step));
 }
 
@@ -115,9 +121,27 @@ void Run::save_now_and_then() {
     shown_ = now;
     show_progress();
   }
-  if (std::chrono::duration<Real>(now - saved_).count() < options_.checkpoint_seconds) return;
+  const Real patience =
+      has_checkpoint_ ? options_.checkpoint_seconds : std::min(options_.first_checkpoint_seconds, options_.checkpoint_seconds);
+  if (std::chrono::duration<Real>(now - saved_).count() < patience) return;
   save();
+  reserve_room();
   write_summary();
+}
+
+// Holds the room of the next checkpoint, where its part file will stand: when the disk is full it can still be written.
+void Run::reserve_room() const {
+  std::error_code error;
+  std::uintmax_t size = std::filesystem::file_size(folder_.checkpoint(), error);
+  if (error) {
+    size = scene_.domain->elements().memory() + scene_.domain->scene().memory();
+    for (const auto& family : scene_.domain->families()) size += family->rows().memory();
+  }
+  try {
+    reserve(part_of(folder_.checkpoint()), size + size / 4 + 65536);
+  } catch (const MachineFailure&) {
+    std::filesystem::remove(part_of(folder_.checkpoint()), error);
+  }
 }
 
 void Run::show_progress() {
@@ -133,51 +157,60 @@ void Run::show_progress() {
 
 void Run::write_summary() {
   figures_.wall_seconds = std::chrono::duration<Real>(Clock::now() - began_).count();
-  write_atomically(folder_.summary(), summary_json(scene_, figures_, moment_, options_.threads, *this));
+  write_atomically(folder_.summary(), summary());
+}
+
+std::string Run::summary() const { return summary_json(scene_, figures_, moment_, options_.threads, *this); }
+
+// What is read from bonds is not saved: a watcher of it that is owed a look could not have it later.
+bool Run::can_be_saved() const {
+  if (!whole_) return false;
+  const auto& watchers = scene_.stages[stage_number()].watchers;
+  for (std::size_t w = watchers.size() - owed_; w < watchers.size(); ++w)
+    if (scene_.section_readers.contains(watchers[w]) && due(w)) return false;
+  return true;
+}
+
+// The machine gave out: what can still be kept is kept, each for itself.
+void Run::rescue(const std::string& reason) {
+  const auto attempt = [&](const std::string& what, const auto& task) {
+    try {
+      task();
+      return true;
+    } catch (const std::exception& failure) {
+      options_.warn(fmt::format("{}: {}", what, failure.what()));
+      return false;
+    }
+  };
+  std::error_code error;
+  if (!can_be_saved())
+    std::filesystem::remove(part_of(folder_.checkpoint()), error);
+  else
+    attempt("the last step could not be saved", [&] { save(); });
+  if (figures_.status == "running" || figures_.status == "done") {
+    figures_.status = "failed";
+    figures_.exit_reason = reason;
+    if (has_checkpoint_)
+      figures_.exit_reason += fmt::format("; the newest checkpoint is of step {}, go on with: beadwork run {} --out {} --resume",
+                                          saved_step_, scene_.deck_path, folder_.root().string());
+  }
+  if (!attempt("summary.json could not be replaced", [&] { write_summary(); }))
+    attempt("summary.json still says that the run goes on", [&] { overwrite(folder_.summary(), summary()); });
+  if (recorder_) attempt("run.h5 lacks the last breaks", [&] { recorder_->write_breaks(domain()); });
 }
 
 // An orderly end, for better or worse: the record is whole, and says why the run ended.
 void Run::close(const std::string& status, const std::string& reason) {
   figures_.status = status;
   figures_.exit_reason = reason;
+  std::error_code error;
+  std::filesystem::remove(part_of(folder_.checkpoint()), error);
   if (recorder_) {
     recorder_->write_breaks(domain());
     std::string why;
     if (!recorder_->consolidate(domain(), why)) options_.warn("run.h5 still links to its frames: " + why);
   }
   write_summary();
-}
-
-namespace {
-
-// What the mover of another stage has damped counts; the elements' motion is told by the present one alone.
-class WithoutKinetic final : public EnergySink {
- public:
-  explicit WithoutKinetic(EnergySink& sink) : sink_(sink) {}
-  void work(const std::string& by, Real joule) override { sink_.work(by, joule); }
-  void stored(const std::string& in, Real joule) override { sink_.stored(in, joule); }
-  void kinetic(Real) override {}
-  void dissipated(const std::string& by, Real joule) override { sink_.dissipated(by, joule); }
-
- private:
-  EnergySink& sink_;
-};
-
-}  // namespace
-
-void Run::energies(EnergySink& sink) const {
-  for (const auto& stage : constraints_)
-    for (const Constraint& c : stage) sink.work(c.set, c.work);
-  for (const auto& [law, table] : laws_) {
-    sink.stored(law->family(), law->stored_energy(*scene_.domain, *table));
-    sink.dissipated(law->family(), law->dissipated_energy(*scene_.domain, *table));
-  }
-  for (const auto& [table, energy] : released_) sink.dissipated(table->name(), energy);
-  WithoutKinetic earlier(sink);
-  for (const auto& plugin : scene_.plugins) {
-    const bool other_mover = dynamic_cast<const Mover*>(plugin.get()) && plugin.get() != &scene_.stages[stage_number()].mover();
-    plugin->energy(other_mover ? static_cast<EnergySink&>(earlier) : sink);
-  }
 }
 
 CurveSink& Run::curve(const CurvePlan& plan) {

@@ -6,7 +6,7 @@
 #include "core/base/text.hpp"
 #include "core/loop/connect.hpp"
 #include "core/loop/run.hpp"
-#include "core/packing/order.hpp"
+#include "core/domain/order.hpp"
 
 namespace beadwork {
 
@@ -21,8 +21,11 @@ void Run::fill() {
     return (std::filesystem::path(scene_.deck_path).parent_path() / path).string();
   };
   job.in_progress = &in_progress;
-  for (Filler* filler : scene_.fillers)
+  job.pause = [&] { pause(); };
+  for (Filler* filler : scene_.fillers) {
+    pause();
     if (!filler->after_filling()) filler->fill(domain(), job);
+  }
   if (domain().size() == 0)
     throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene_.deck_path));
 
@@ -35,6 +38,14 @@ void Run::fill() {
     if (filler->after_filling()) filler->fill(domain(), job);
 }
 
+// Before the first step there is nothing to save.
+void Run::pause() const {
+  if (!options_.interrupt || !*options_.interrupt) return;
+  throw Interrupted(fmt::format("interrupted before the first step; {} with: beadwork run {} --out {} {}",
+                                options_.resume ? "go on" : "nothing is saved yet, begin again", scene_.deck_path, folder_.root().string(),
+                                options_.resume ? "--resume" : "--overwrite"));
+}
+
 // What the loop itself has to remember, as columns of the scene.
 void Run::add_state_columns() {
   const auto keep = [&](const std::string& name, const std::string& unit, const std::string& doc) {
@@ -45,11 +56,17 @@ void Run::add_state_columns() {
   keep("stage-step", "1", "Step at which the stage began");
   keep("bond-updates", "1", "Sum over steps of live bonds");
   keep("loop-seconds", "s", "Time spent in the loop");
-  for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds");
+  keep("initial-energy", "J", "Energy that was there without any work");
+  keep("looks-owed", "1", "Watchers that have not had their turn at this step");
+  for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds, or of all once they act no longer");
   until_maxima_.resize(scene_.stages.size());
+  looked_.resize(scene_.stages.size());
   for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
     until_maxima_[s].assign(scene_.stages[s].until->memory(), 0);
     for (std::size_t k = 0; k < until_maxima_[s].size(); ++k) keep(fmt::format("until.{}.{}", s, k), "1", "Largest value so far");
+    for (const auto& marks : scene_.stages[s].marks) looked_[s].emplace_back(marks.size(), 0);
+    for (std::size_t w = 0; w < looked_[s].size(); ++w)
+      for (std::size_t k = 0; k < looked_[s][w].size(); ++k) keep(fmt::format("looked.{}.{}.{}", s, w, k), "1", "1 once the moment had its look");
     for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
       keep(fmt::format("reaction.{}.{}", s, k), "N", "Force that keeps a constraint");
       keep(fmt::format("work.{}.{}", s, k), "J", "Work of a constraint");
@@ -61,6 +78,7 @@ void Run::create_families(Stage& stage) {
   Index next_id = domain().bonds();
   for (BondLaw* law : stage.laws) {
     if (scene_.first_stage(*law) != stage_number()) continue;
+    if (moment_.step == 0) pause();
     BondTable& table = *domain().find_family(law->family());
     table.create(pairs_to_bond(*law, domain()), next_id);
     next_id += table.size();

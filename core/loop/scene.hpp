@@ -25,6 +25,7 @@ struct Stage {
   std::vector<Mover*> movers;  ///< exactly one, once checked
   std::vector<Failure*> failures;
   std::vector<Watcher*> watchers;
+  std::vector<std::vector<Mark>> marks;  ///< moments at which each watcher looks beside its cadence
   std::optional<Until> until;
 
   Mover& mover() const { return *movers.front(); }

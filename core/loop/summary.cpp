@@ -23,12 +23,13 @@ class Terms final : public EnergySink {
   void kinetic(Real joule) override { add("kinetic", joule, kinetic_); }
   void dissipated(const std::string& by, Real joule) override { add("dissipated: " + by, joule, dissipated_); }
 
-  Json json() const {
+  Json json(Real initial) const {
     Json all = terms_;
+    all["initial"] = initial;
     all["work"] = work_;
     all["stored"] = stored_;
     all["dissipated"] = dissipated_;
-    all["residual"] = work_ - stored_ - kinetic_ - dissipated_;
+    all["residual"] = initial - (stored_ + kinetic_ + dissipated_ - work_);
     return all;
   }
 
@@ -65,7 +66,7 @@ std::string summary_json(const Scene& scene, const RunFigures& figures, const Mo
   json["bond_updates_per_second"] = figures.loop_seconds > 0 ? figures.bond_updates / figures.loop_seconds : 0;
   Terms terms;
   sight.energies(terms);
-  json["energy"] = terms.json();
+  json["energy"] = terms.json(sight.initial_energy());
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;

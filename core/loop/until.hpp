@@ -6,17 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/complaints.hpp"
-#include "core/deck/deck.hpp"
-#include "core/deck/expression.hpp"
-#include "core/plugin/kinds.hpp"
+#include "core/loop/mark.hpp"
 
 namespace beadwork {
-
-/// Displacement [m] and force [N] of what is driven on a set, largest in magnitude over its driven constraints; on no
-/// set: over all.
-Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real time);
-Real driven_force(std::span<const Constraint> constraints, const std::string& set);
 
 /// Conditions joined by "or", each one of
 ///   1 ms            a time since the stage began
@@ -43,11 +35,12 @@ class Until {
   std::optional<Real> displacement() const;
 
  private:
-  enum class What { time, steps, displacement, watched, condition };
+  enum class What { mark, watched, condition };
   struct Clause {
     What what;
     std::string text;
-    Real value = 0;
+    Real value = 0;  ///< of what is watched
+    Mark mark;
     bool watches_force = false;
     std::string set;
     std::string comparison;
@@ -57,6 +50,7 @@ class Until {
   static std::optional<Clause> clause(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints);
   static std::optional<Clause> watched(const std::vector<std::string>& words, const std::string& text, const Location& at,
                                        const Scope& scope, Complaints& complaints);
+  std::optional<Real> first(Mark::What what) const;
   static bool holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, Real& maximum);
 
   std::string text_;

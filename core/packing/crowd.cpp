@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "core/packing/blocks.hpp"
-#include "core/packing/order.hpp"
+#include "core/domain/order.hpp"
 
 namespace beadwork::packing {
 
 Crowd crowd_of(const Packing& packing, std::vector<Index>& order) {
   Crowd crowd;
+  crowd.pause = packing.pause;
   crowd.origin = centre(packing.region);
   Real sum = 0;
   for (const Real r : packing.radius) sum += r;

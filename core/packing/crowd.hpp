@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/packing/cell_grid.hpp"
+#include "core/domain/neighbours.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/region.hpp"
 
@@ -25,6 +26,7 @@ struct Crowd {
   std::size_t moving = 0;  ///< ball[moving] and those behind are obstacles
   Vec3 origin;
   Real unit;
+  std::function<void()> pause = [] {};  ///< called at each round of arranging
 };
 
 /// Along a Hilbert curve; `order[k]` is the element of the packing that became ball k.

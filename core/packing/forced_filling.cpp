@@ -36,7 +36,7 @@ std::size_t place_waiting(Packing& packing, Real tolerance, Random& random) {
   std::sort(packing.waiting.begin(), packing.waiting.end(),
             std::greater<>());  // the large ones need the best places
   std::vector<Ball> placed;
-  insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000}, random,
+  insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000, .pause = packing.pause}, random,
                    packing.waiting, placed);
   for (const Ball& ball : placed) {
     packing.position.push_back(ball.x);

@@ -22,10 +22,11 @@ Packing free_filling(const Request& request) {
                   .radius = {},
                   .waiting = draw_radii(request.dispersion, sizing.count, request.seed),
                   .seconds = 0,
-                  .warnings = {}};
+                  .warnings = {},
+                  .pause = request.pause};
   for (Real& r : packing.waiting) r *= sizing.mean_radius;
 
-  InsertionRule rule{.tries = request.tries};
+  InsertionRule rule{.tries = request.tries, .pause = request.pause};
   if (request.dispersion.spread > wide_spread) {
     std::sort(packing.waiting.begin(), packing.waiting.end(), std::greater<>());
     rule.patience = 100;

@@ -106,6 +106,7 @@ void insert_at_random(InsertionGrid& grid, const Region& region, const Insertion
   while (!radii.empty() && failed < rule.tries) {
     std::size_t kept = 0;
     for (const Real r : radii) {
+      rule.pause();
       Ball ball{zero<Vec3>(), r};
       bool found = false;
       for (int go = 0; go < rule.patience && !found && failed < rule.tries; ++go) {

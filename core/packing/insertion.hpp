@@ -2,6 +2,7 @@
 // Placing elements at random where there is room.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct InsertionRule {
   int choices = 1;     ///< random places looked at for each element; the one with the most room is taken
   int patience = 1;    ///< goes of an element before the next one's turn
   int tries = 20000;   ///< ends after so many goes in a row found no place
+  std::function<void()> pause = [] {};  ///< called at each element's turn
 };
 
 /// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed`

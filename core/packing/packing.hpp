@@ -10,6 +10,7 @@
 // number of threads. Lengths are in any one unit.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,7 @@ struct Request {
   std::uint64_t seed = 1;
   /// Free filling ends after so many failed tries in a row.
   int tries = 20000;
+  std::function<void()> pause = [] {};  ///< called now and then: what it throws ends the work
 };
 
 struct Packing {
@@ -56,6 +58,7 @@ struct Packing {
   std::vector<Real> waiting;  ///< radii of the elements that found no place yet
   Real seconds = 0;
   std::vector<std::string> warnings;
+  std::function<void()> pause = [] {};  ///< as in Request
 };
 
 /// Random sequential insertion without interpenetration, until the count is reached or nothing more fits.

@@ -132,6 +132,7 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
   scale_radii(crowd, 1 - overlaps(crowd, neighbours).mean);  // what all must give is not for some to give
   Allowance allowance(crowd, bounds);
   for (;; ++result.rounds) {
+    crowd.pause();
     Found found = overlapping(crowd, neighbours.of(crowd));
     result.largest = found.largest;
     if (found.largest <= overlap || result.rounds == most_rounds) return result;

@@ -83,6 +83,7 @@ Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residua
   Settled settled;
   const NeighbourList* list = &neighbours.of(crowd);
   while (settled.steps < max_steps) {
+    crowd.pause();
     const Sums sums = sum_in_blocks<Sums>(crowd.moving, [&](std::size_t begin, std::size_t end, Sums& s) {
       for (std::size_t i = begin; i < end; ++i) {
         force[i] = push_on(crowd, list->of(i), i, s);

@@ -12,7 +12,6 @@
 
 namespace beadwork {
 
-
 /// Where the run stands.
 struct Moment {
   Real time = 0;            ///< [s]
@@ -32,6 +31,8 @@ struct FillJob {
   std::function<void(const std::string&)> warn;
   std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
   std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
+  /// To be called now and then in long work: throws Interrupted if the user wants to stop.
+  std::function<void()> pause = [] {};
   /// What the steps of one filling hand on to one another, by the name of the set that is filled.
   std::map<std::string, std::any>* in_progress = nullptr;
 };
@@ -145,7 +146,11 @@ class Workings {
   virtual void evaluate(bool settle) = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
+  /// As in Sight: the energy balance as it stands.
+  virtual void energies(EnergySink& sink) const = 0;
+  virtual Real initial_energy() const = 0;
   virtual void say(const std::string& line) = 0;
+  virtual void warn(const std::string& line) = 0;
 };
 
 class Mover : public Plugin {
@@ -233,6 +238,8 @@ class Sight {
   virtual const BondLaw* law(const std::string& family) const = 0;
   /// Asks every plugin for its share of the energy balance.
   virtual void energies(EnergySink& sink) const = 0;
+  /// Energy that was there without any work: when the run began, and what the start of a stage has brought [J].
+  virtual Real initial_energy() const = 0;
   virtual CurveSink& curve(const CurvePlan& plan) = 0;
   virtual void frame(const FramePlan& plan) = 0;
 };
@@ -241,9 +248,16 @@ class Watcher : public Plugin {
  public:
   static constexpr Kind kind = Kind::watch;
   Param<std::int64_t> every{
-      this, {.name = "every", .range = {1}, .doc = "Steps from one look to the next", .fallback = "100"}};
-  /// True if the watcher looks at this step; the loop then brings up to date what it reads.
-  virtual bool wants(const Moment& moment) const { return moment.step % *every == 0; }
+      this, {.name = "every", .range = {1}, .doc = "Steps from one look to the next", .fallback = "100", .instead = "at"}};
+  Param<std::string> moments{
+      this,
+      {.name = "at",
+       .doc = "Moments of single looks, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
+              "(0.3 mm), counted from the start of the stage as in 'until'; beside 'every' or instead of it",
+       .optional = true}};
+  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at', and brings up to date
+  /// what the watcher reads.
+  virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
   virtual void look(Sight& sight) = 0;
 };
 

@@ -131,9 +131,17 @@ ParamBase::ParamBase(Plugin* owner, ParamInfo info) : info_(std::move(info)) { o
 
 void ParamBase::read(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
   at_ = attribute.value_at;
+  written_ = attribute.value;
   attribute.used = true;
   in_deck_ = true;
   given_ = take(attribute, scope, complaints);
+}
+
+Location ParamBase::at(const std::string& word) const {
+  const auto is_blank = [&](std::size_t k) { return k >= written_.size() || std::string_view(" \t\r\n").find(written_[k]) != std::string_view::npos; };
+  for (std::size_t k = written_.find(word); !word.empty() && k != std::string::npos; k = written_.find(word, k + 1))
+    if ((k == 0 || is_blank(k - 1)) && is_blank(k + word.size())) return locate(at_, k);
+  return at_;
 }
 
 void ParamBase::read_fallback(const Location& at, const Scope& scope, Complaints& complaints) {

@@ -47,6 +47,7 @@ struct ParamInfo {
   Role role = Role::plain;
   int count = 0;                       ///< of several words: how many are wanted; 0 is any number
   std::vector<Variable> variables = {};   ///< of a formula
+  std::string instead = {};            ///< an attribute that may stand in place of this one: with it there is no fallback
 };
 
 /// A formula on quantities, such as `x < 13.5 mm`.
@@ -69,6 +70,8 @@ class ParamBase {
   /// True if the deck itself gave it.
   bool in_deck() const { return in_deck_; }
   const Location& at() const { return at_; }
+  /// Where this word of the value stands; where the value does not hold it literally, the value.
+  Location at(const std::string& word) const;
   bool needed() const { return !info_.optional && !info_.fallback; }
 
   void read(const Attribute& attribute, const Scope& scope, Complaints& complaints);
@@ -87,6 +90,7 @@ class ParamBase {
   bool given_ = false;
   bool in_deck_ = false;
   Location at_;
+  std::string written_;  ///< the value as it stands in the deck
 };
 
 /// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string> or Formula.

@@ -48,7 +48,7 @@ void Plugin::configure(const Node& node, const std::string& id, const Scope& sco
     known.push_back(p->info().name);
     if (const Attribute* attribute = node.find(p->info().name)) {
       p->read(*attribute, scope, complaints);
-    } else {
+    } else if (p->info().instead.empty() || !node.find(p->info().instead)) {
       p->read_fallback(node.at, scope, complaints);
       if (p->needed())
         complaints.error(node.at, fmt::format("<{}> needs '{}': {}", tag_, p->info().name, p->info().doc));

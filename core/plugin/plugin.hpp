@@ -24,6 +24,17 @@ class EnergySink {
   virtual void dissipated(const std::string& by, Real joule) = 0;
 };
 
+/// The balance by kinds of energy alone.
+struct EnergySums final : EnergySink {
+  void work(const std::string&, Real joule) override { worked += joule; }
+  void stored(const std::string&, Real joule) override { in_bonds += joule; }
+  void kinetic(Real joule) override { in_motion += joule; }
+  void dissipated(const std::string&, Real joule) override { taken += joule; }
+  /// What is there, or was and is booked, beyond the work done.
+  Real beyond_work() const { return in_bonds + in_motion + taken - worked; }
+  Real worked = 0, in_bonds = 0, in_motion = 0, taken = 0;
+};
+
 class Plugin {
  public:
   virtual ~Plugin() = default;

@@ -34,6 +34,7 @@ class FreeFilling final : public ElementMaker {
     if (mean_radius.given()) request.mean_radius = *mean_radius;
     request.dispersion = {*law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian, *spread, *deviation};
     request.seed = job.seed;
+    request.pause = job.pause;
     if (around.given()) note_obstacles(domain, request.around);
     guarded(*this, [&] {
       packing::Packing packing = packing::free_filling(request);

@@ -57,6 +57,7 @@ class PackingStep : public Filler {
       refuse(at(), fmt::format("set '{}' is no packing in progress: <free-filling> has to come first", *set));
     auto& progress = std::any_cast<PackingInProgress&>(found->second);
     const std::size_t before = progress.packing.warnings.size();
+    progress.packing.pause = job.pause;
     guarded(*this, [&] { go_on(progress.packing); });
     for (std::size_t w = before; w < progress.packing.warnings.size(); ++w) job.warn(progress.packing.warnings[w]);
     place(domain, progress);

@@ -34,6 +34,7 @@ class Verlet final : public Mover {
   Reads<Real> radius{this, field::radius};
   Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
   Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
+  Keeps<Real> stable{this, {"stable-step", On::scene, "s", "Largest stable step when the stage began"}};
 
   void choose_rotations(bool wanted) override {
     for (FieldUse* use : {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&spin), static_cast<FieldUse*>(&torque),
@@ -56,7 +57,10 @@ class Verlet final : public Mover {
         refuse(at(), "nothing in this scene limits the time step: give 'time-step'");
       w.say(fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step, w.moment().time_step / largest,
                         step_.by));
-      stable_ = largest;
+      if (w.moment().time_step > largest)
+        w.warn(fmt::format("{}: 'time-step' is {:.4g} s, the largest stable one {:.4g} s; a run that gains energy by it is stopped",
+                           fixed_step.at().where(), w.moment().time_step, largest));
+      stable[0] = largest;
       w.evaluate(false);
       grips_.seize(w, places(), turns(), *beta);
       damping_power[0] = damp(w) + dashpots_.power(velocity.view(), spin.view());
@@ -80,7 +84,7 @@ class Verlet final : public Mover {
     grips_.after_correct(w, places(), turns());
     book_beta();
     book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()));
-    if (now.step % 100 == 0) check_speed(w);
+    if (now.step % 100 == 0) check_stability(w);
   }
 
   void energy(EnergySink& sink) const override {
@@ -242,8 +246,16 @@ class Verlet final : public Mover {
     throw PhysicsFailure(fmt::format("step {}: forces are not finite; {}", w.moment().step, cause(w)));
   }
 
+  // A run beyond stability ends here, whether its bonds still hold or have broken of it.
+  void check_stability(Workings& w) const {
+    if (!std::isfinite(stable[0])) return;  // nothing was bonded
+    check_bonds(w);
+    check_elements(w);
+    if (w.moment().time_step > stable[0]) check_energy(w);
+  }
+
   // In one step the ends of a bond may approach or part by a small share of its length only: faster is no solid any more.
-  void check_speed(Workings& w) {
+  void check_bonds(Workings& w) const {
     const Real dt = w.moment().time_step;
     for (const auto& [law, table] : w.laws())
       for (const Chunk& chunk : table->chunks())
@@ -251,15 +263,42 @@ class Verlet final : public Mover {
           const Index i = table->first()[b];
           const Index j = table->second()[b];
           const Real moved = (velocity[j] - velocity[i]).norm() * dt;
-          if (moved <= 0.2 * (position_[j] - position_[i]).norm()) continue;
-          throw PhysicsFailure(fmt::format("step {}: element {} of a bond of '{}' moves by {:.2g} of the bond's length in one step; {}",
-                                           w.moment().step, w.domain().elements().column("id").view<Index>()[i], table->name(),
-                                           moved / (position_[j] - position_[i]).norm(), cause(w)));
+          const Real length = (position_[j] - position_[i]).norm();
+          if (moved > 0.2 * length)
+            stop(w, i, fmt::format("of a bond of '{}' moves by {:.2g} of the bond's length in one step", table->name(), moved / length));
         }
   }
 
+  // Nor does an element pass by itself in one step.
+  void check_elements(Workings& w) const {
+    const Real dt = w.moment().time_step;
+    for (Index i = 0; i < count_; ++i) {
+      const Real moved = velocity[i].norm() * dt / radius[i];
+      if (moved <= 1 && position_[i].allFinite()) continue;
+      stop(w, i, std::isfinite(moved) ? fmt::format("moves by {:.2g} of its radius in one step", moved) : "has no finite place or velocity");
+    }
+  }
+
+  // With too long a step bonds may break before anything is fast; what they were broken by is energy that nobody brought.
+  void check_energy(Workings& w) const {
+    EnergySums sums;
+    w.energies(sums);
+    const Real brought = std::abs(w.initial_energy()) + std::abs(sums.worked);
+    const Real gained = sums.beyond_work() - w.initial_energy();
+    if (gained <= brought) return;
+    Index fastest = 0;
+    for (Index i = 1; i < count_; ++i)
+      if (velocity[i].squaredNorm() > velocity[fastest].squaredNorm()) fastest = i;
+    stop(w, fastest, fmt::format("is the fastest of a run that has {:.4g} J more than the {:.4g} J that were brought to it", gained, brought));
+  }
+
+  [[noreturn]] void stop(Workings& w, Index element, const std::string& why) const {
+    throw PhysicsFailure(fmt::format("step {}: element {} {}; {}", w.moment().step,
+                                     w.domain().elements().column("id").view<Index>()[element], why, cause(w)));
+  }
+
   std::string cause(Workings& w) const {
-    const Real ratio = w.moment().time_step / (stable_ > 0 ? stable_ : largest_step(w).time_step);
+    const Real ratio = w.moment().time_step / stable[0];
     if (ratio > 1)
       return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
     return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast or a stiffness too high", ratio);
@@ -271,7 +310,6 @@ class Verlet final : public Mover {
   Dashpots dashpots_;
   std::vector<Vec3> before_;  // velocity and spin of each element when the step began, where beta is below 1
   StepLimit step_;
-  Real stable_ = 0;
 };
 
 }  // namespace beadwork

@@ -14,7 +14,7 @@ ALLOWED = {
     "packing": {"base", "domain"},
     "statics": {"base", "domain", "mechanics"},
     "plugin": {"base", "deck", "domain", "mechanics"},
-    "loop": {"base", "deck", "domain", "mechanics", "plugin", "io", "packing"},
+    "loop": {"base", "deck", "domain", "mechanics", "plugin", "io"},
     "workbench": {"base", "deck", "domain", "mechanics", "plugin", "loop", "io", "packing", "statics"},
     "plugins/fill": PLUGIN_BASE | {"packing", "io"},
     "plugins/move": PLUGIN_BASE | {"statics"},

@@ -27,9 +27,15 @@ cat >"$work/deck.xml" <<'DECK'
 </scene>
 DECK
 "$beadwork" plan "$work/deck.xml" >"$work/plan"
+[[ -z $(tail -c 1 "$work/plan") ]] || fail "the last line does not end"
 says "rotations: nobody reads orientations or adds torques"
 says "forces and moments of single bonds: nobody reads them"
 ! grep -q "^  spin" "$work/plan" || fail "there is a spin"
+
+echo "when watchers look"
+sed 's|</scene>|<watch><energy-ledger at="0.3 us, 7"/><energy-ledger name="e" every="5" at="9"/></watch></scene>|' "$work/deck.xml" >"$work/looks.xml"
+"$beadwork" plan "$work/looks.xml" >"$work/plan"
+says "energy-ledger (at 0.3 us, 7), energy-ledger (every 5 steps, at 9)"
 
 echo "every shipped deck can be planned"
 for deck in "$source"/xml-cases/*/quick.xml; do "$beadwork" plan "$deck" >"$work/plan" || fail "$deck"; done

@@ -1,14 +1,15 @@
-# Decks as tests: what is said of bad ones, to the letter, and what good ones give.
+# Decks as tests: what is said of bad ones, to the letter, what good ones give, and what comes of several commands on one.
 set(here ${CMAKE_CURRENT_LIST_DIR})
 
-function(beadwork_test_decks folder)
+function(beadwork_test_decks folder script)
   file(GLOB expects CONFIGURE_DEPENDS ${here}/${folder}/*.expect)
   foreach(expect IN LISTS expects)
     get_filename_component(name ${expect} NAME_WE)
-    add_test(NAME decks/${folder}/${name} COMMAND /usr/bin/python3 ${here}/run_${folder}.py $<TARGET_FILE:beadwork_cli> ${expect})
+    add_test(NAME decks/${folder}/${name} COMMAND /usr/bin/python3 ${here}/${script} $<TARGET_FILE:beadwork_cli> ${expect})
     set_tests_properties(decks/${folder}/${name} PROPERTIES LABELS decks TIMEOUT 300 SKIP_RETURN_CODE 77)
   endforeach()
 endfunction()
 
-beadwork_test_decks(bad)
-beadwork_test_decks(good)
+beadwork_test_decks(bad run_session.py)
+beadwork_test_decks(sessions run_session.py)
+beadwork_test_decks(good run_good.py)

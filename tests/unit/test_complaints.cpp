@@ -52,6 +52,12 @@ TEST(Complaints, place_the_caret_by_characters_not_bytes) {
   EXPECT_THAT(complaints.text(), testing::HasSubstr("\u00B5\u00B5x\n  ^\n"));
 }
 
+TEST(Complaints, spell_out_bytes_that_are_no_text) {
+  Complaints complaints;
+  complaints.error({file("deck.xml", "a\xE9z \x01\u00B5\xC3"), 1, 6}, "here");
+  EXPECT_THAT(complaints.text(), testing::HasSubstr("a\\xE9z \\x01\u00B5\\xC3\n" + std::string(11, ' ') + "^\n"));
+}
+
 TEST(Complaints, show_only_a_part_of_an_endless_line) {
   Complaints complaints;
   const std::string line = std::string(100000, 'a') + "HERE" + std::string(100000, 'b');

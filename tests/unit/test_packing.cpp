@@ -11,7 +11,7 @@
 
 #include "core/base/random.hpp"
 #include "core/packing/blocks.hpp"
-#include "core/packing/cell_grid.hpp"
+#include "core/domain/neighbours.hpp"
 #include "core/packing/crowd.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/projection.hpp"

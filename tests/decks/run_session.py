@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the program says of a bad deck, to the letter.   Usage: run_bad.py BEADWORK EXPECT [--record]
+"""What the program says, to the letter: of a bad deck, or over several commands.   Usage: run_session.py BEADWORK EXPECT [--record]
 
 An .expect file is a session at a terminal, in the folder of the decks:
 

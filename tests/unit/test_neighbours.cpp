@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "core/base/random.hpp"
-#include "core/packing/cell_grid.hpp"
-#include "core/packing/order.hpp"
+#include "core/domain/neighbours.hpp"
+#include "core/domain/order.hpp"
 
 namespace beadwork {
 namespace {
@@ -60,7 +60,7 @@ std::string message_of(const Cloud& c) {
   return "nothing was thrown";
 }
 
-TEST(CellGrid, finds_the_pairs_that_a_double_loop_finds) {
+TEST(Neighbours, finds_the_pairs_that_a_double_loop_finds) {
   const Cloud c = cloud(2000, 10, 0.3, 0.5, 1);
   for (const Real tolerance : {0.0, 1e-3, 0.5}) {
     const auto pairs = find_pairs(c.position, c.radius, tolerance);
@@ -70,7 +70,7 @@ TEST(CellGrid, finds_the_pairs_that_a_double_loop_finds) {
   EXPECT_EQ(find_pairs(c.position, c.radius, 0.1, 0.3), all_against_all(c, 0.1, 0.3, c.position.size()));
 }
 
-TEST(CellGrid, finds_all_pairs_when_radii_differ_a_hundredfold) {
+TEST(Neighbours, finds_all_pairs_when_radii_differ_a_hundredfold) {
   const Cloud c = cloud(3000, 20, 0.02, 2, 2);
   const auto pairs = find_pairs(c.position, c.radius, 0.01);
   EXPECT_EQ(pairs, all_against_all(c, 0.01, 0, c.position.size()));
@@ -80,7 +80,7 @@ TEST(CellGrid, finds_all_pairs_when_radii_differ_a_hundredfold) {
   EXPECT_GT(largest_ratio, 50) << "the cloud has to hold pairs of very different size";
 }
 
-TEST(CellGrid, finds_elements_that_just_touch_on_a_lattice) {
+TEST(Neighbours, finds_elements_that_just_touch_on_a_lattice) {
   Cloud c;
   for (int x = 0; x < 8; ++x)
     for (int y = 0; y < 8; ++y)
@@ -89,14 +89,14 @@ TEST(CellGrid, finds_elements_that_just_touch_on_a_lattice) {
   EXPECT_EQ(find_pairs(c.position, c.radius).size(), 3u * 7 * 8 * 8);
 }
 
-TEST(CellGrid, leaves_out_pairs_of_two_obstacles) {
+TEST(Neighbours, leaves_out_pairs_of_two_obstacles) {
   const Cloud c = cloud(800, 5, 0.1, 1, 3);
   for (const std::size_t moving : {0u, 300u, 800u})
     EXPECT_EQ(find_pairs_around(c.position, c.radius, moving, 0.1, 0.05),
               all_against_all(c, 0.1, 0.05, moving));
 }
 
-TEST(CellGrid, is_not_slowed_down_by_one_element_far_away) {
+TEST(Neighbours, is_not_slowed_down_by_one_element_far_away) {
   // If the cells grew with the extent, all elements but one would share a cell: 10^10 distances, minutes.
   Cloud c = cloud(100000, 40, 0.3, 0.5, 4);
   const auto without = find_pairs(c.position, c.radius);
@@ -105,18 +105,18 @@ TEST(CellGrid, is_not_slowed_down_by_one_element_far_away) {
   EXPECT_EQ(find_pairs(c.position, c.radius), without);
 }
 
-TEST(CellGrid, finds_coincident_centres_and_points_without_size) {
+TEST(Neighbours, finds_coincident_centres_and_points_without_size) {
   const Cloud c{{{1, 2, 3}, {4, 4, 4}, {1, 2, 3}}, {0, 0, 0}};
   EXPECT_EQ(find_pairs(c.position, c.radius), (std::vector<Pair>{{0, 2}}));
 }
 
-TEST(CellGrid, takes_an_empty_cloud_and_a_single_element) {
+TEST(Neighbours, takes_an_empty_cloud_and_a_single_element) {
   EXPECT_TRUE(find_pairs({}, {}).empty());
   const Cloud c{{{1, 2, 3}}, {1}};
   EXPECT_TRUE(find_pairs(c.position, c.radius).empty());
 }
 
-TEST(CellGrid, gives_the_same_list_for_any_number_of_threads) {
+TEST(Neighbours, gives_the_same_list_for_any_number_of_threads) {
   const Cloud c = cloud(60000, 40, 0.3, 0.6, 5);
   omp_set_num_threads(1);
   const auto alone = find_pairs(c.position, c.radius, 0.1);
@@ -126,7 +126,7 @@ TEST(CellGrid, gives_the_same_list_for_any_number_of_threads) {
   EXPECT_EQ(alone, together);
 }
 
-TEST(CellGrid, names_the_element_that_is_not_finite) {
+TEST(Neighbours, names_the_element_that_is_not_finite) {
   const Real nan = std::numeric_limits<Real>::quiet_NaN(), infinity = std::numeric_limits<Real>::infinity();
   EXPECT_THAT(message_of({{{0, 0, 0}, {0, nan, 0}}, {1, 1}}),
               HasSubstr("position of element 1 is not finite"));
@@ -137,7 +137,7 @@ TEST(CellGrid, names_the_element_that_is_not_finite) {
   EXPECT_THAT(message_of({{{-1.7e308, 0, 0}, {1.7e308, 0, 0}}, {1, 1}}), HasSubstr("too far apart"));
 }
 
-TEST(CellGrid, lists_the_neighbours_of_each_element_both_ways_and_in_order) {
+TEST(Neighbours, lists_the_neighbours_of_each_element_both_ways_and_in_order) {
   const std::vector<Pair> pairs{{0, 2}, {0, 3}, {1, 3}, {2, 3}};
   const NeighbourList list = neighbours_of(pairs, 5);
   EXPECT_THAT(list.of(0), ::testing::ElementsAre(2, 3));

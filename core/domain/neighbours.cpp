@@ -1,4 +1,4 @@
-#include "core/packing/cell_grid.hpp"
+#include "core/domain/neighbours.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/packing/order.hpp"
+#include "core/domain/order.hpp"
 
 #include <algorithm>
 #include <array>

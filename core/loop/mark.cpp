@@ -1,0 +1,86 @@
+#include "core/loop/mark.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/text.hpp"
+#include "core/base/units.hpp"
+
+namespace beadwork {
+
+namespace {
+
+template <class F>
+Real largest(std::span<const Constraint> constraints, const std::string& set, const F& value) {
+  Real largest = 0;
+  for (const Constraint& c : constraints)
+    if (c.driven && (set.empty() || c.set == set)) largest = std::max(largest, std::abs(value(c)));
+  return largest;
+}
+
+}  // namespace
+
+Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real time) {
+  return largest(constraints, set, [&](const Constraint& c) { return c.motion(time).displacement; });
+}
+
+Real driven_force(std::span<const Constraint> constraints, const std::string& set) {
+  return largest(constraints, set, [](const Constraint& c) { return c.reaction; });
+}
+
+const std::vector<Variable>& Mark::variables() {
+  static const std::vector<Variable> three{
+      {"time", find_unit("s")->dimension}, {"step", find_unit("1")->dimension}, {"displacement", find_unit("m")->dimension}};
+  return three;
+}
+
+std::optional<Mark> Mark::of(const Expression& quantity, const std::string& attribute, const std::string& wanted,
+                             const std::string& text, const Location& at, Complaints& complaints) {
+  const std::vector<Real> anywhere(variables().size(), 0);
+  const Real value = quantity.evaluate(anywhere);
+  for (std::size_t v = 0; v < variables().size(); ++v) {
+    if (!(quantity.dimension() == variables()[v].dimension)) continue;
+    if (value >= 0) return Mark{static_cast<What>(v), value};
+    complaints.error(at, fmt::format("'{}' must be >= 0, got \"{}\"", attribute, text));
+    return std::nullopt;
+  }
+  complaints.error(at, fmt::format("'{}' wants {}, got \"{}\" which is {}", attribute, wanted, text, quantity.dimension().name()));
+  return std::nullopt;
+}
+
+std::vector<Mark> Mark::list(const std::string& text, const std::string& attribute, const Location& at, const Scope& scope,
+                             Complaints& complaints) {
+  std::vector<Mark> marks;
+  std::size_t begin = 0;
+  for (const std::string& piece : split(text, ',')) {
+    const std::string word(trim(piece));
+    const Location place = locate(at, begin + (word.empty() ? 0 : piece.find(word)));
+    begin += piece.size() + 1;
+    if (word.empty()) {
+      complaints.error(place, fmt::format("'{}' wants moments such as \"0.3 mm, 1 ms\", got \"{}\"", attribute, text));
+      continue;
+    }
+    const auto quantity = Expression::compile(word, place, scope, {}, complaints);
+    if (!quantity) continue;
+    if (const auto mark = of(*quantity, attribute, "a time, a number of steps or a displacement", word, place, complaints))
+      marks.push_back(*mark);
+  }
+  return marks;
+}
+
+bool Mark::reached(const Moment& moment, std::span<const Constraint> constraints) const {
+  const Real time = moment.time - moment.stage_start;
+  switch (what) {
+    // Half a step of tolerance: the sum of many time steps ends a little beside a round number.
+    case What::time: return time >= value - 0.5 * moment.time_step;
+    case What::steps: return static_cast<Real>(moment.step - moment.stage_step) >= value;
+    case What::displacement:
+      return std::max(driven_displacement(constraints, "", time), driven_displacement(constraints, "", time + 0.5 * moment.time_step)) >=
+             value;
+  }
+  return false;
+}
+
+}  // namespace beadwork
