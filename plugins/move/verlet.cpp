@@ -2,14 +2,16 @@
 
 #include <cmath>
 
-#include "core/base/failure.hpp"
 #include "core/base/sums.hpp"
 #include "core/domain/rows.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/verlet.hpp"
 #include "core/plugin/kinds.hpp"
+#include "plugins/move/beta_damping.hpp"
 #include "plugins/move/dashpots.hpp"
 #include "plugins/move/grips.hpp"
+#include "plugins/move/local_damping.hpp"
+#include "plugins/move/stability_watch.hpp"
 #include "plugins/move/stable_step.hpp"
 
 namespace beadwork {
@@ -72,7 +74,7 @@ class Verlet final : public Mover {
     Moment& now = w.moment();
     position_ = w.domain().elements().column("position").view<Vec3>();
     grips_.before_advance(w, position_);
-    remember_rates();
+    if (*beta < 1) beta_damping_.remember(motion());
     advance_all(now.time_step);
     grips_.after_advance(w, position_, mass.view());
     now.time += now.time_step;
@@ -82,9 +84,9 @@ class Verlet final : public Mover {
     grips_.react(w, places(), turns(), *beta);
     correct_all(w);
     grips_.after_correct(w, places(), turns());
-    book_beta();
+    if (*beta < 1) damped[0] += beta_damping_.taken(motion(), grips_, *beta);
     book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()));
-    if (now.step % 100 == 0) check_stability(w);
+    if (now.step % 100 == 0) StabilityWatch(w, motion(), stable[0]).look();
   }
 
   void energy(EnergySink& sink) const override {
@@ -98,6 +100,10 @@ class Verlet final : public Mover {
   }
 
  private:
+  Motion motion() const {
+    return {count_,        position_,    velocity.view(), force.view(),   orientation.view(),
+            spin.view(),   torque.view(), mass.view(),     inertia.view(), radius.view()};
+  }
   Gripped places() const { return {velocity.view(), force.view(), mass.view()}; }
   Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }
 
@@ -152,7 +158,7 @@ class Verlet final : public Mover {
       }
       return !(all - all >= T(0));  // an infinity or what is no number
     });
-    if (broken) stop_at_force(w);
+    if (broken) StabilityWatch(w, motion(), stable[0]).stop_at_force();
   }
 
   // The kinetic energy after a step holds half of what the forces of this step do, and half of what those of the last one did.
@@ -161,154 +167,18 @@ class Verlet final : public Mover {
     damping_power[0] = power;
   }
 
-  // F -= alpha |F| sgn(v), component by component, where nothing prescribes the motion. Its power is that at the velocity of
-  // full time, which the step is about to reach.
-  template <class T>
-  struct Damped {
-    Vec<T> load;
-    T power;
-  };
-  template <class T>
-  [[gnu::always_inline]] static Damped<T> damp_one(const Vec<T>& load, const Vec<T>& rate, const T& inverse, Real share,
-                                                   Real half, unsigned held = 0) {
-    Damped<T> out{load, T(0)};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (held >> axis & 1) continue;
-      const T f = load[axis], v = rate[axis];
-      const T size = select(f < T(0), -f, f);
-      const T sense = select(v > T(0), T(1), select(v < T(0), T(-1), T(0)));
-      const T d = (T(-share) * size) * sense;
-      out.load[axis] = f + d;
-      out.power = out.power - d * (v + T(half) * inverse * out.load[axis]);
-    }
-    return out;
-  }
   // Both kinds of damping forces; the power of the local one [W].
   Real damp(Workings& w) {
     if (dashpots_.any()) dashpots_.act(w.domain(), force.view(), torque.view());
     if (*local_damping == 0) return 0;
-    const Real half = 0.5 * *beta * w.moment().time_step;
-    const Real share = *local_damping;
-    return rows::sum(count_, [=, this, v = velocity.view(), omega = spin.view(), f = force.view(), t = torque.view(), m = mass.view(),
-                              inert = inertia.view()]<class At>(const At& at) {
-      using T = typename At::Number;
-      const auto both = [&]<class Row>(const Row& row, unsigned held) {
-        using N = typename Row::Number;
-        const auto pushed = damp_one<N>(row(f), row(v), N(1) / row(m), share, half, held);
-        row.set(f, pushed.load);
-        if (!omega) return pushed.power;
-        const auto turned = damp_one<N>(row(t), row(omega), N(1) / row(inert), share, half, held >> 3);
-        row.set(t, turned.load);
-        return N(pushed.power + turned.power);
-      };
-      if constexpr (At::count == 1) {
-        return both(at, grips_.held(at.row));
-      } else {
-        if (!grips_.holds_any(at.row, At::count)) return both(at, 0);
-        T power(0);
-        for (int k = 0; k < At::count; ++k) power.v[k] = both(Rows<1>{at.row + k}, grips_.held(at.row + k));
-        return power;
-      }
-    });
-  }
-
-  void remember_rates() {
-    if (*beta == 1) return;
-    before_.resize(static_cast<std::size_t>(count_) * 2);
-    for (Index i = 0; i < count_; ++i) {
-      before_[static_cast<std::size_t>(i) * 2] = velocity[i];
-      if (spin) before_[static_cast<std::size_t>(i) * 2 + 1] = spin[i];
-    }
-  }
-
-  // Beta below 1 takes (1 - beta)/(2 beta^2) m |v' - v|^2 a step.   docs/theory/verlet.md
-  void book_beta() {
-    if (*beta == 1) return;
-    const auto change = [&](const View<Vec3>& rate, Index i, int first_axis) {
-      const Vec3& before = before_[static_cast<std::size_t>(i) * 2 + static_cast<std::size_t>(first_axis / 3)];
-      Real squared = 0;
-      for (int axis = 0; axis < 3; ++axis)
-        if (!grips_.holds(i, first_axis + axis)) squared += (rate.at(i, axis) - before[axis]) * (rate.at(i, axis) - before[axis]);
-      return squared;
-    };
-    damped[0] += (1 - *beta) / (2 * *beta * *beta) * fixed_sum(count_, [&](Index i) {
-                   Real squared = mass[i] * change(velocity.view(), i, 0);
-                   if (spin) squared += inertia[i] * change(spin.view(), i, 3);
-                   return squared;
-                 });
-  }
-
-  [[noreturn]] void stop_at_force(Workings& w) {
-    for (Index i = 0; i < count_; ++i)
-      if (!force[i].allFinite() || (spin && !torque[i].allFinite()))
-        throw PhysicsFailure(fmt::format("step {}: the force on element {} is not finite; {}", w.moment().step,
-                                         w.domain().elements().column("id").view<Index>()[i], cause(w)));
-    throw PhysicsFailure(fmt::format("step {}: forces are not finite; {}", w.moment().step, cause(w)));
-  }
-
-  // A run beyond stability ends here, whether its bonds still hold or have broken of it.
-  void check_stability(Workings& w) const {
-    if (!std::isfinite(stable[0])) return;  // nothing was bonded
-    check_bonds(w);
-    check_elements(w);
-    if (w.moment().time_step > stable[0]) check_energy(w);
-  }
-
-  // In one step the ends of a bond may approach or part by a small share of its length only: faster is no solid any more.
-  void check_bonds(Workings& w) const {
-    const Real dt = w.moment().time_step;
-    for (const auto& [law, table] : w.laws())
-      for (const Chunk& chunk : table->chunks())
-        for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-          const Index i = table->first()[b];
-          const Index j = table->second()[b];
-          const Real moved = (velocity[j] - velocity[i]).norm() * dt;
-          const Real length = (position_[j] - position_[i]).norm();
-          if (moved > 0.2 * length)
-            stop(w, i, fmt::format("of a bond of '{}' moves by {:.2g} of the bond's length in one step", table->name(), moved / length));
-        }
-  }
-
-  // Nor does an element pass by itself in one step.
-  void check_elements(Workings& w) const {
-    const Real dt = w.moment().time_step;
-    for (Index i = 0; i < count_; ++i) {
-      const Real moved = velocity[i].norm() * dt / radius[i];
-      if (moved <= 1 && position_[i].allFinite()) continue;
-      stop(w, i, std::isfinite(moved) ? fmt::format("moves by {:.2g} of its radius in one step", moved) : "has no finite place or velocity");
-    }
-  }
-
-  // With too long a step bonds may break before anything is fast; what they were broken by is energy that nobody brought.
-  void check_energy(Workings& w) const {
-    EnergySums sums;
-    w.energies(sums);
-    const Real brought = std::abs(w.initial_energy()) + std::abs(sums.worked);
-    const Real gained = sums.beyond_work() - w.initial_energy();
-    if (gained <= brought) return;
-    Index fastest = 0;
-    for (Index i = 1; i < count_; ++i)
-      if (velocity[i].squaredNorm() > velocity[fastest].squaredNorm()) fastest = i;
-    stop(w, fastest, fmt::format("is the fastest of a run that has {:.4g} J more than the {:.4g} J that were brought to it", gained, brought));
-  }
-
-  [[noreturn]] void stop(Workings& w, Index element, const std::string& why) const {
-    throw PhysicsFailure(fmt::format("step {}: element {} {}; {}", w.moment().step,
-                                     w.domain().elements().column("id").view<Index>()[element], why, cause(w)));
-  }
-
-  std::string cause(Workings& w) const {
-    const Real ratio = w.moment().time_step / stable[0];
-    if (ratio > 1)
-      return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
-    return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast or a stiffness too high", ratio);
+    return damp_locally(motion(), grips_, *local_damping, 0.5 * *beta * w.moment().time_step);
   }
 
   Index count_ = 0;
   View<Vec3> position_;
   Grips grips_;
   Dashpots dashpots_;
-  std::vector<Vec3> before_;  // velocity and spin of each element when the step began, where beta is below 1
+  BetaDamping beta_damping_;
   StepLimit step_;
 };
 

@@ -1,0 +1,90 @@
+#pragma once
+// Ends a run beyond stability, whether its bonds still hold or have broken of it.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/failure.hpp"
+#include "plugins/move/motion.hpp"
+
+namespace beadwork {
+
+class StabilityWatch {
+ public:
+  /// `stable`: the largest stable step when the stage began [s].
+  StabilityWatch(Workings& workings, const Motion& motion, Real stable) : w_(workings), all_(motion), stable_(stable) {}
+
+  /// Throws PhysicsFailure with element, step and the probable cause.
+  void look() const {
+    if (!std::isfinite(stable_)) return;  // nothing was bonded
+    check_bonds();
+    check_elements();
+    if (dt() > stable_) check_energy();
+  }
+
+  [[noreturn]] void stop_at_force() const {
+    for (Index i = 0; i < all_.count; ++i)
+      if (!all_.force[i].allFinite() || (all_.spin && !all_.torque[i].allFinite()))
+        throw PhysicsFailure(fmt::format("step {}: the force on element {} is not finite; {}", w_.moment().step, id(i), cause()));
+    throw PhysicsFailure(fmt::format("step {}: forces are not finite; {}", w_.moment().step, cause()));
+  }
+
+ private:
+  Real dt() const { return w_.moment().time_step; }
+  Index id(Index row) const { return w_.domain().elements().column("id").view<Index>()[row]; }
+
+  // In one step the ends of a bond may approach or part by a small share of its length only: faster is no solid any more.
+  void check_bonds() const {
+    for (const auto& [law, table] : w_.laws())
+      for (const Chunk& chunk : table->chunks())
+        for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+          const Index i = table->first()[b];
+          const Index j = table->second()[b];
+          const Real moved = (all_.velocity[j] - all_.velocity[i]).norm() * dt();
+          const Real length = (all_.place[j] - all_.place[i]).norm();
+          if (moved > 0.2 * length)
+            stop(i, fmt::format("of a bond of '{}' moves by {:.2g} of the bond's length in one step", table->name(), moved / length));
+        }
+  }
+
+  // Nor does an element pass by itself in one step.
+  void check_elements() const {
+    for (Index i = 0; i < all_.count; ++i) {
+      const Real moved = all_.velocity[i].norm() * dt() / all_.radius[i];
+      if (moved <= 1 && all_.place[i].allFinite()) continue;
+      stop(i, std::isfinite(moved) ? fmt::format("moves by {:.2g} of its radius in one step", moved) : "has no finite place or velocity");
+    }
+  }
+
+  // With too long a step bonds may break before anything is fast; what they were broken by is energy that nobody brought.
+  void check_energy() const {
+    EnergySums sums;
+    w_.energies(sums);
+    const Real brought = std::abs(w_.initial_energy()) + std::abs(sums.worked);
+    const Real gained = sums.beyond_work() - w_.initial_energy();
+    if (gained <= brought) return;
+    Index fastest = 0;
+    for (Index i = 1; i < all_.count; ++i)
+      if (all_.velocity[i].squaredNorm() > all_.velocity[fastest].squaredNorm()) fastest = i;
+    stop(fastest, fmt::format("is the fastest of a run that has {:.4g} J more than the {:.4g} J that were brought to it", gained, brought));
+  }
+
+  [[noreturn]] void stop(Index element, const std::string& why) const {
+    throw PhysicsFailure(fmt::format("step {}: element {} {}; {}", w_.moment().step,
+                                     id(element), why, cause()));
+  }
+
+  std::string cause() const {
+    const Real ratio = dt() / stable_;
+    if (ratio > 1)
+      return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
+    return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast or a stiffness too high", ratio);
+  }
+
+  Workings& w_;
+  Motion all_;
+  Real stable_;
+};
+
+}  // namespace beadwork
