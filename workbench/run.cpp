@@ -88,7 +88,7 @@ int run(const RunArguments& arguments) {
   options.warn = [&](const std::string& line) { log->warn("warning: " + line); };
   options.progress = [&](double fraction, const std::string& text) { progress(fraction, text); };
 
-  log->info("beadwork {} runs {} on {} threads ({} instructions) into {}", version, arguments.deck.path, options.threads,
+  log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
             loaded.catalogue.instructions(), arguments.out);
   for (const Library& library : loaded.catalogue.libraries()) log->debug("plugins: {} ({})", library.path.string(), library.version);
   Run job(*loaded.scene, loaded.catalogue, folder, options);

@@ -39,19 +39,15 @@ std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const
   return lower;
 }
 
-Set main_body(const Set& set, const std::vector<Index>& body) {
+Set without_debris(const Set& set, const std::vector<Index>& body) {
   std::vector<Index> members(body.size(), 0);
   for (const Index of : body) ++members[static_cast<std::size_t>(of)];
-  Index main = -1, most = 1;
-  for (const Index row : set) {
-    const Index of = body[static_cast<std::size_t>(row)];
-    if (members[static_cast<std::size_t>(of)] <= most) continue;
-    most = members[static_cast<std::size_t>(of)];
-    main = of;
-  }
-  if (main < 0) return set;
+  const auto size = [&](Index row) { return members[static_cast<std::size_t>(body[static_cast<std::size_t>(row)])]; };
+  Index largest = 1;
+  for (const Index row : set) largest = std::max(largest, size(row));
+  if (largest == 1) return set;
   Set kept;
-  std::copy_if(set.begin(), set.end(), std::back_inserter(kept), [&](Index row) { return body[static_cast<std::size_t>(row)] == main; });
+  std::copy_if(set.begin(), set.end(), std::back_inserter(kept), [&](Index row) { return size(row) > 1 && size(row) >= largest / 100; });
   return kept;
 }
 

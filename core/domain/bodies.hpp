@@ -13,8 +13,8 @@ namespace beadwork {
 /// as they stood after step `when` (the break log tells which were broken by then).
 std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const> tables, std::int64_t when);
 
-/// The members of a set that belong to its main body: the one with most elements among those that the set touches. The whole
-/// set if no bond holds any of them.
-Set main_body(const Set& set, const std::vector<Index>& body);
+/// The members of a set that are no debris: single elements, and bodies of less than a hundredth of the elements of the
+/// largest body that the set touches. The whole set if no bond holds any of them.
+Set without_debris(const Set& set, const std::vector<Index>& body);
 
 }  // namespace beadwork

@@ -100,14 +100,16 @@ void Domain::gather() {
   }
 }
 
+void Domain::clear_loads() {
+  for (const char* name : {"force", "torque"})
+    if (const Column* load = elements_.find(name))
+      for (Index row = 0; row < size(); ++row) load->view<Vec3>().set(row, zero<Vec3>());
+}
+
 void Domain::clear_halo() {
-  const auto force = elements_.column("force").view<Vec3>();
-  const Column* torques = elements_.find("torque");
-  const auto torque = torques ? torques->view<Vec3>() : View<Vec3>{};
-  for (const Index row : share_rows_) {
-    force.set(row, zero<Vec3>());
-    if (torque) torque.set(row, zero<Vec3>());
-  }
+  for (const char* name : {"force", "torque"})
+    if (const Column* load = elements_.find(name))
+      for (const Index row : share_rows_) load->view<Vec3>().set(row, zero<Vec3>());
 }
 
 }  // namespace beadwork

@@ -46,6 +46,8 @@ class Domain {
   void cut_families();
   /// Adds the halo rows to their elements. To be called once all families have acted.
   void gather();
+  /// Sets all forces and torques to zero.
+  void clear_loads();
   /// Sets the halo rows to zero: for what adds to forces that have been gathered already, and gathers again.
   void clear_halo();
   /// Changes whenever rows may have moved, so that views must be fetched anew.

@@ -2,12 +2,12 @@
 // Loops over elements that do each row by itself, as many rows at once as a pack has lanes. What is done with a row does
 // not depend on which rows it shares a pack with, so neither do the bits.
 
-#include <omp.h>
-
 #include <algorithm>
-#include <vector>
+#include <cstring>
+#include <type_traits>
 
 #include "core/base/pack.hpp"
+#include "core/base/sums.hpp"
 #include "core/domain/view.hpp"
 
 namespace beadwork {
@@ -99,10 +99,7 @@ bool any_of(Index count, const F& f) {
 /// Sum of f(at) over all rows: row by row in each block, then the blocks in order.
 template <class F>
 Real sum(Index count, const F& f) {
-  const Index blocks = (count + block - 1) / block;
-  std::vector<Real> part(static_cast<std::size_t>(blocks), 0);
-#pragma omp parallel for schedule(static) if (count > 4 * block)
-  for (Index b = 0; b < blocks; ++b) {
+  return sum_of_blocks((count + block - 1) / block, [&](Index b) {
     Real total = 0;
     each_of(b * block, std::min(count, (b + 1) * block), [&](const auto& at) {
       const auto term = f(at);
@@ -111,11 +108,8 @@ Real sum(Index count, const F& f) {
       else
         for (int k = 0; k < pack_width; ++k) total += term.v[k];
     });
-    part[static_cast<std::size_t>(b)] = total;
-  }
-  Real total = 0;
-  for (const Real p : part) total += p;
-  return total;
+    return total;
+  });
 }
 
 }  // namespace rows

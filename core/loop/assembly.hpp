@@ -39,6 +39,7 @@ class Assembly {
   void lay_out_fields();
   void choose_rotations();
   void add_families();
+  void begin_lines();
   void add_provided();
   void meet_readers();
   bool meet(const Plugin& reader, const FieldUse& use);

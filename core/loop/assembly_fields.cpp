@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/text.hpp"
+#include "core/domain/vocabulary.hpp"
 #include "core/loop/assembly.hpp"
 
 namespace beadwork {
@@ -10,6 +11,7 @@ namespace beadwork {
 void Assembly::lay_out_fields() {
   choose_rotations();
   add_families();
+  begin_lines();
   add_provided();
   meet_readers();
 }
@@ -40,6 +42,19 @@ Table* Assembly::table_of(const Plugin& plugin, On on) const {
   if (on == On::scene) return &scene_.domain->scene();
   BondTable* family = scene_.domain->find_family(plugin.family());
   return family ? &family->rows() : nullptr;
+}
+
+// The loops find the members of an element's line side by side in this order, whichever plugin asks first.
+void Assembly::begin_lines() {
+  for (const Field* field : {&field::position, &field::orientation, &field::velocity, &field::spin, &field::force, &field::torque}) {
+    const auto asks = [&](const auto& plugin) {
+      return std::any_of(plugin->uses().begin(), plugin->uses().end(), [&](const FieldUse* use) {
+        return use->wanted() && use->field().on == On::elements && use->field().name == field->name &&
+               (use->verb() == Verb::keeps || use->verb() == Verb::adds);
+      });
+    };
+    if (std::any_of(scene_.plugins.begin(), scene_.plugins.end(), asks)) scene_.domain->elements().add(*field);
+  }
 }
 
 // What is kept or added to exists for sure.

@@ -42,6 +42,10 @@ std::optional<Mark> Mark::of(const Expression& quantity, const std::string& attr
   const Real value = quantity.evaluate(anywhere);
   for (std::size_t v = 0; v < variables().size(); ++v) {
     if (!(quantity.dimension() == variables()[v].dimension)) continue;
+    if (static_cast<What>(v) == What::steps && value != std::floor(value)) {
+      complaints.error(at, fmt::format("'{}' wants a whole number of steps, or a time or displacement with its unit, got \"{}\"", attribute, text));
+      return std::nullopt;
+    }
     if (value >= 0) return Mark{static_cast<What>(v), value};
     complaints.error(at, fmt::format("'{}' must be >= 0, got \"{}\"", attribute, text));
     return std::nullopt;

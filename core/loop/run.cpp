@@ -84,12 +84,16 @@ void Run::enter(Stage& stage, bool resumed) {
     if (law->acts_when_broken()) domain().find_family(law->family())->keep_broken_live();
   for (BondLaw* law : stage.laws) laws_.emplace_back(law, domain().find_family(law->family()));
   domain().cut_families();
+  domain().clear_halo();  // families that act no longer leave nothing behind to be gathered
   bind_all();
+  if (!resumed && moment_.step == 0 && stage_number() == 0)
+    for (Derived* derived : scene_.derived) blaming(*derived, moment_, [&] { derived->derive(domain()); });  // where all begins
   if (!resumed) {
     for (auto& [law, table] : laws_) {
       if (scene_.first_stage(*law) != stage_number()) continue;
       blaming(*law, moment_, [&, law = law, table = table] { law->connect(domain(), *table); });
-      options_.say(fmt::format("bond family '{}': {} bonds. {}", law->family(), table->size(), law->remark()));
+      const std::string remark = law->remark();
+      options_.say(fmt::format("bond family '{}': {} bonds{}{}", law->family(), table->size(), remark.empty() ? "" : "; ", remark));
     }
     for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });
     check_constraints(stage, constraints());
@@ -130,10 +134,7 @@ void Run::evaluate(bool settle) {
     blaming(*law, moment_, [&, law = law, table = table] { law->act(domain(), *table, how); });
     how.clear = false;
   }
-  if (how.clear) {
-    const auto force = domain().elements().column("force").view<Vec3>();
-    for (Index row = 0; row < domain().size(); ++row) force.set(row, zero<Vec3>());
-  }
+  if (how.clear) domain().clear_loads();
   domain().gather();
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->push(domain(), moment_); });
 }
@@ -165,8 +166,10 @@ void Run::log_events() {
 // All criteria see one configuration; only then do bonds fall, each once, in the order of the deck's criteria.
 void Run::break_bonds() {
   std::vector<std::pair<Failure*, std::vector<Index>>> verdicts;
+  derived_now_.clear();
   for (Failure* failure : stage().failures) {
     if (moment_.step % *failure->every != 0) continue;
+    derive_for(*failure);
     auto rows = blaming(*failure, moment_, [&] { return failure->judge(domain(), *domain().find_family(failure->family())); });
     if (!rows.empty()) verdicts.emplace_back(failure, std::move(rows));
   }
@@ -198,19 +201,25 @@ void Run::break_bonds() {
 
 void Run::look(std::size_t first) {
   if (!watched_) return;
-  std::set<const Derived*> done;
+  derived_now_.clear();
   const auto& watchers = stage().watchers;
   for (std::size_t w = first; w < watchers.size(); ++w) {
     owed_ = watchers.size() - w;
     if (!due(w)) continue;
-    for (Derived* derived : scene_.derived)
-      if (done.insert(derived).second) blaming(*derived, moment_, [&] { derived->derive(domain()); });
+    derive_for(*watchers[w]);
     blaming(*watchers[w], moment_, [&] { watchers[w]->look(*this); });
     const auto& marks = stage().marks[w];
     for (std::size_t k = 0; k < marks.size(); ++k)
       if (marks[k].reached(moment_, constraints())) looked_[stage_number()][w][k] = 1;
   }
   owed_ = 0;
+}
+
+// What the plugin reads of derived fields, each once for all who read it.
+void Run::derive_for(const Plugin& reader) {
+  for (Derived* derived : scene_.derived)
+    if (scene_.readers_of(*derived).contains(&reader) && derived_now_.insert(derived).second)
+      blaming(*derived, moment_, [&] { derived->derive(domain()); });
 }
 
 // For its cadence, or at a moment of its 'at' that has not had its look.

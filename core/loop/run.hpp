@@ -70,6 +70,8 @@ class Run final : private Workings, private Sight {
   void look(std::size_t first = 0);
   bool due(std::size_t watcher) const;
   void bind_all();
+  void derive_for(const Plugin& reader);
+  Real wall_seconds() const;
   bool sections_wanted() const;
 
   // before the loop (run_setup.cpp)
@@ -133,6 +135,8 @@ class Run final : private Workings, private Sight {
   std::vector<std::vector<Real>> until_maxima_;       ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
   std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
+  std::set<const Derived*> derived_now_;  ///< fields that stand for the present state
+  Real wall_before_ = 0;                  ///< seconds of the sessions before a restart
   std::size_t owed_ = 0;  ///< watchers of this stage that have not had their turn at this step, last in the order
   bool whole_ = false;    ///< the state is that at the end of a step
   std::map<const BondTable*, Real> released_;  ///< energy of broken bonds, and of families that act no longer [J]

@@ -64,6 +64,7 @@ void Run::store_state() {
   state("stage-step") = static_cast<Real>(moment_.stage_step);
   state("bond-updates") = figures_.bond_updates;
   state("loop-seconds") = figures_.loop_seconds;
+  state("wall-seconds") = wall_seconds();
   state("initial-energy") = initial_energy_;
   state("looks-owed") = static_cast<Real>(owed_);
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
@@ -76,6 +77,7 @@ void Run::restore_state() {
   moment_.stage_step = std::llround(state("stage-step"));
   figures_.bond_updates = state("bond-updates");
   figures_.loop_seconds = state("loop-seconds");
+  wall_before_ = state("wall-seconds");
   initial_energy_ = state("initial-energy");
   owed_ = static_cast<std::size_t>(state("looks-owed"));
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
@@ -155,8 +157,10 @@ void Run::show_progress() {
                                                          moment_.time, domain().breaks().breaks.size()));
 }
 
+Real Run::wall_seconds() const { return wall_before_ + std::chrono::duration<Real>(Clock::now() - began_).count(); }
+
 void Run::write_summary() {
-  figures_.wall_seconds = std::chrono::duration<Real>(Clock::now() - began_).count();
+  figures_.wall_seconds = wall_seconds();
   write_atomically(folder_.summary(), summary());
 }
 

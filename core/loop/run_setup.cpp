@@ -56,6 +56,7 @@ void Run::add_state_columns() {
   keep("stage-step", "1", "Step at which the stage began");
   keep("bond-updates", "1", "Sum over steps of live bonds");
   keep("loop-seconds", "s", "Time spent in the loop");
+  keep("wall-seconds", "s", "Time spent in all");
   keep("initial-energy", "J", "Energy that was there without any work");
   keep("looks-owed", "1", "Watchers that have not had their turn at this step");
   for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds, or of all once they act no longer");

@@ -12,11 +12,13 @@
 // of the law itself, the same for all bonds, are Real and become a T where they are used.
 
 #include <algorithm>
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
 #include "core/mechanics/lane.hpp"
 #include "core/base/pack.hpp"
+#include "core/base/sums.hpp"
 #include "core/mechanics/wrench.hpp"
 #include "core/plugin/kinds.hpp"
 
@@ -109,10 +111,22 @@ class ElementLines {
     lines.force_ = base("force");
     lines.torque_ = base("torque");
     lines.velocity_ = base("velocity");
+    lines.spin_ = base("spin");
     if (const Column* velocity = domain.elements().find("velocity")) lines.motion_ = velocity->stride();
     lines.pose_ = domain.elements().column("position").stride();
     if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
     return lines;
+  }
+
+  /// What a law says of itself must fit what its plugin asked for. Throws std::logic_error.
+  template <class Law>
+  void require() const {
+    const auto beside = [](const std::byte* first, const std::byte* second) { return first && second == first + 3 * sizeof(Real); };
+    if (!position_ || !force_) throw std::logic_error("a bond law reads position and adds to force");
+    if (Law::turns && !(beside(position_, orientation_) && beside(force_, torque_)))
+      throw std::logic_error("a bond law that turns reads orientation and adds to torque");
+    if (moves<Law>() && !(velocity_ && (!Law::turns || beside(velocity_, spin_))))
+      throw std::logic_error("a bond law that moves reads velocity, and spin where it turns");
   }
 
   template <class Law>
@@ -230,7 +244,7 @@ class ElementLines {
     add_to(line + 4, high);
   }
 
-  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
+  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
   std::size_t pose_ = 0, motion_ = 0, load_ = 0;
 };
 
@@ -272,6 +286,7 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
 template <Pass pass, class Law>
 std::vector<Index> run(const Law& law, const BondTable& table, Domain& domain, bool clear) {
   const ElementLines e = ElementLines::of(domain);
+  e.require<Law>();
   const auto chunks = static_cast<Index>(table.chunks().size());
   const Index length = block_length(domain.size());
   std::vector<char> flagged(static_cast<std::size_t>(chunks), 0);
@@ -291,18 +306,12 @@ std::vector<Index> run(const Law& law, const BondTable& table, Domain& domain, b
 /// Sum of f(row) over the live bonds: each chunk in order, then the chunks in order.
 template <class F>
 Real sum(const BondTable& table, const F& f) {
-  const auto chunks = static_cast<Index>(table.chunks().size());
-  std::vector<Real> part(static_cast<std::size_t>(chunks), 0);
-#pragma omp parallel for schedule(static) if (chunks > 1)
-  for (Index c = 0; c < chunks; ++c) {
+  return sum_of_blocks(static_cast<Index>(table.chunks().size()), [&](Index c) {
     const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
     Real total = 0;
     for (Index b = chunk.begin; b < chunk.live_end; ++b) total += f(b);
-    part[static_cast<std::size_t>(c)] = total;
-  }
-  Real total = 0;
-  for (const Real p : part) total += p;
-  return total;
+    return total;
+  });
 }
 
 }  // namespace bond_loop
@@ -342,12 +351,13 @@ class BondLawOf : public BondLaw {
   }
 
   Real stored_energy(const Domain& domain, const BondTable& table, Index row) const final {
-    return std::visit([&](const auto& value) { return stored_by(value, domain, table, row); }, law());
+    return std::visit([&](const auto& value) { return stored_by(value, ElementLines::of(domain), table, row); }, law());
   }
   Real stored_energy(const Domain& domain, const BondTable& table) const final {
     return std::visit(
         [&](const auto& value) {
-          return bond_loop::sum(table, [&](Index row) { return stored_by(value, domain, table, row); });
+          const auto lines = ElementLines::of(domain);
+          return bond_loop::sum(table, [&](Index row) { return stored_by(value, lines, table, row); });
         },
         law());
   }
@@ -372,10 +382,9 @@ class BondLawOf : public BondLaw {
 
  private:
   template <class Law>
-  static Real stored_by(const Law& value, const Domain& domain, const BondTable& table, Index row) {
+  static Real stored_by(const Law& value, const ElementLines& lines, const BondTable& table, Index row) {
     bool ignored = false;
-    const auto e = ElementLines::of(domain);
-    return value.stored(One{row, &ignored}, e.template ends<Law>(table.first()[row], table.second()[row]));
+    return value.stored(One{row, &ignored}, lines.template ends<Law>(table.first()[row], table.second()[row]));
   }
   std::vector<BondEvent> events_;
 };

@@ -41,13 +41,14 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
   for (const fs::path& place : places) {
     for (const fs::path& path : libraries_in(place)) {
       std::error_code ignored;
-      const fs::path real = fs::weakly_canonical(path, ignored);
+      const fs::path real = widest_variant(fs::weakly_canonical(path, ignored), sets);
       if (std::find(opened.begin(), opened.end(), real) != opened.end()) continue;
       opened.push_back(real);
-      catalogue.add(open_library(widest_variant(real, sets)));
+      catalogue.add(open_library(real));
+      for (const std::string& set : sets)
+        if (real.parent_path().filename() == set) catalogue.instructions_ = set;
     }
   }
-  catalogue.instructions_ = sets.empty() ? "baseline" : sets.front();
   return catalogue;
 }
 

@@ -26,7 +26,7 @@ class Catalogue {
   /// Every kind in which this tag is known.
   std::vector<Kind> kinds_of(const std::string& tag) const;
   const std::vector<Library>& libraries() const { return libraries_; }
-  /// The widest instruction set for which libraries were looked for.
+  /// The instruction set of the variants that were opened, baseline if none was.
   const std::string& instructions() const { return instructions_; }
   std::string library_of(Kind kind, const std::string& tag) const;
 

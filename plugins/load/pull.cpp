@@ -51,6 +51,8 @@ class Pull final : public Load {
         complaints->error(table.at(), fmt::format("'table' wants rows such as \"1 ms 2 m/s\" in increasing time, got \"{}\"", trim(row)));
       }
     }
+    if (complaints && !rows.empty() && rows.front().time != 0)
+      complaints->error(table.at(), "the first row of 'table' is that of the start of the stage, 0 s");
     if (rows.empty()) rows.push_back({0, 0});
     return rows;
   }

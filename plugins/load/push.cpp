@@ -18,6 +18,8 @@ class Push final : public Load {
   Reads<Vec3> spin{this, field::spin};
   Keeps<Real> work{this, {"work", On::scene, "J", "Work of the force so far"}};
   Keeps<Real> power{this, {"power", On::scene, "W", "Power at the last step"}};
+  Keeps<Real> began{this, {"began", On::scene, "s", "Time at which it set in"}};
+  Keeps<Real> begun{this, {"begun", On::scene, "1", "1 once it has set in"}};
 
   void choose() override {
     torques.want(torque->norm() > 0);
@@ -25,6 +27,9 @@ class Push final : public Load {
   }
 
   void push(Domain& domain, const Moment& moment) override {
+    if (begun[0] == 0) began[0] = moment.time;
+    begun[0] = 1;
+    if (moment.step == moment.stage_step) power[0] = power_now(domain, moment);
     const Set& members = domain.set(*set);
     const Real share = strength(moment) / static_cast<Real>(members.size());
     for (const Index row : members) {
@@ -35,13 +40,7 @@ class Push final : public Load {
 
   // The trapezoid of the power: of the order of the scheme itself.
   void account(const Domain& domain, const Moment& moment) override {
-    const Set& members = domain.set(*set);
-    const Real share = strength(moment) / static_cast<Real>(members.size());
-    Real now = 0;
-    for (const Index row : members) {
-      now += share * force->dot(velocity[row]);
-      if (spin) now += share * torque->dot(spin[row]);
-    }
+    const Real now = power_now(domain, moment);
     work[0] += 0.5 * (power[0] + now) * moment.time_step;
     power[0] = now;
   }
@@ -49,9 +48,19 @@ class Push final : public Load {
   void energy(EnergySink& sink) const override { sink.work(*set, work[0]); }
 
  private:
-  Real strength(const Moment& moment) const {
-    return *rise > 0 ? smooth_step((moment.time - moment.stage_start) / *rise) : 1;
+  Real power_now(const Domain& domain, const Moment& moment) const {
+    const Set& members = domain.set(*set);
+    const Real share = strength(moment) / static_cast<Real>(members.size());
+    Real now = 0;
+    for (const Index row : members) {
+      now += share * force->dot(velocity[row]);
+      if (spin) now += share * torque->dot(spin[row]);
+    }
+    return now;
   }
+
+  // A push that stands in several stages sets in once.
+  Real strength(const Moment& moment) const { return *rise > 0 ? smooth_step((moment.time - began[0]) / *rise) : 1; }
 };
 
 }  // namespace beadwork

@@ -2,11 +2,13 @@
 // Bond damping: dashpots beside the springs of each bond. They oppose what parts the two ends, and nothing else: a body that
 // moves and turns as one is not braked, and both momenta are kept.   docs/theory/verlet.md
 //
-//   F  = -c_n (v.n) n - c_t s       v = v2 - v1,  s = v - (v.n) n - (w1 + w2)/2 x d     on end 2, the opposite on end 1
-//   T1 = -d x F/2 + c_r (w2 - w1)   T2 = -d x F/2 - c_r (w2 - w1)
-//   c = 2 zeta sqrt(k m_eff)        with the stiffness k of each mode and the reduced mass or inertia of the two ends
+//   F  = -c_n (v.n) n - c_t s                v = v2 - v1,  s = v - (v.n) n - (w1 + w2)/2 x d     on end 2, the opposite on 1
+//   T1 = -d x F/2 + C (w2 - w1)              C = c_b (1 - n n) + c_w n n
+//   T2 = -d x F/2 - C (w2 - w1)
+//   c = 2 zeta sqrt(k m)                     with the stiffness k and the reduced mass or inertia m of each mode
 //
-// A pair of elements then swings with the damping ratio zeta.
+// A pair of elements then swings with the damping ratio zeta along the bond, across it, in bending and in twist. Velocities are
+// those of half a step ago, so v.n and s are taken with the chord of half a step ago: a body that spins is not held back.
 
 #include <algorithm>
 
@@ -18,20 +20,27 @@ namespace beadwork {
 
 /// What a bond's dashpots are worth.
 struct DashpotRates {
-  Real along = 0, across = 0;  ///< c_n, c_t [N s/m]
-  Real turning = 0;            ///< c_r [N m s]
+  Real along = 0, across = 0;      ///< c_n, c_t [N s/m]
+  Real bending = 0, twisting = 0;  ///< c_b, c_w [N m s]
 };
 
-/// From the stiffness of a bond (x1, theta1, x2, theta2) that points along n, and the reduced mass [kg] and inertia [kg m^2].
-inline DashpotRates dashpot_rates(const Matrix12& k, const Vec3& n, Real zeta, Real mass, Real inertia) {
+/// From the stiffness of a bond (x1, theta1, x2, theta2) with d = x2 - x1, and 1/m1 + 1/m2 [1/kg] and 1/I1 + 1/I2 [1/(kg m^2)],
+/// the latter 0 where nothing turns.
+inline DashpotRates dashpot_rates(const Matrix12& k, const Vec3& d, Real zeta, Real lightness, Real looseness) {
+  const Vec3 n = d.normalized();
   const Mat3 moved = k.block<3, 3>(6, 6);
   const Mat3 turned = 0.25 * (k.block<3, 3>(3, 3) - k.block<3, 3>(3, 9) - k.block<3, 3>(9, 3) + k.block<3, 3>(9, 9));
-  const Real along = n.dot(moved * n);
-  const auto rate = [&](Real stiffness, Real of) { return 2 * zeta * std::sqrt(std::max(Real(0), stiffness) * of); };
-  return {rate(along, mass), rate(0.5 * (moved.trace() - along), mass), rate(turned.trace() / 3, inertia)};
+  const Real along = n.dot(moved * n), twist = n.dot(turned * n);
+  const auto rate = [&](Real stiffness, Real mobility) { return 2 * zeta * std::sqrt(std::max(Real(0), stiffness) / mobility); };
+  DashpotRates c{rate(along, lightness), 0, 0, 0};
+  if (looseness == 0) return c;
+  c.across = rate(0.5 * (moved.trace() - along), lightness + 0.25 * d.squaredNorm() * looseness);  // slip moves and turns both ends
+  c.bending = rate(0.5 * (turned.trace() - twist), looseness);
+  c.twisting = rate(twist, looseness);
+  return c;
 }
 
-/// The same as a matrix: loads = -C rates, rates (v1, w1, v2, w2). `d` = x2 - x1.
+/// The same as a matrix: loads = -C rates, rates (v1, w1, v2, w2).
 inline Matrix12 dashpot_matrix(const DashpotRates& c, const Vec3& d) {
   const Vec3 n = d.normalized();
   Eigen::Matrix<Real, 3, 12> parting = Eigen::Matrix<Real, 3, 12>::Zero(), turning = parting;
@@ -41,13 +50,15 @@ inline Matrix12 dashpot_matrix(const DashpotRates& c, const Vec3& d) {
   turning.block<3, 3>(0, 3) = -Mat3::Identity();
   turning.block<3, 3>(0, 9) = Mat3::Identity();
   const Mat3 weight = c.along * n * n.transpose() + c.across * stiffness::across(n);
-  return parting.transpose() * weight * parting + c.turning * turning.transpose() * turning;
+  const Mat3 twist = c.twisting * n * n.transpose() + c.bending * stiffness::across(n);
+  return parting.transpose() * weight * parting + turning.transpose() * twist * turning;
 }
 
 /// `turning`: elements have spins; otherwise only the central dashpot acts, which alone needs no torques.
 template <bool turning>
 struct DashpotLaw {
-  View<const Real> along, across, turn;
+  View<const Real> along, across, bending, twisting;
+  Real half_step;  ///< since the velocities [s]
   static constexpr bool turns = turning;
   static constexpr bool moves = true;
 
@@ -55,15 +66,19 @@ struct DashpotLaw {
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const Vec<T>& d = ends.apart;
     const Vec<T> v = ends.v2 - ends.v1;
-    const Vec<T> central = (dot(v, d) / dot(d, d)) * d;
+    const Vec<T> then = d - T(half_step) * v;
+    const T parting = dot(v, then) / dot(then, then);  // rate of the length over the length
+    const Vec<T> central = (at(along) * parting) * d;
     if constexpr (turning) {
-      const Vec<T> slip = v - central - T(0.5) * cross(ends.w1 + ends.w2, d);
-      const Vec<T> force = -(at(along) * central) - at(across) * slip;
+      const Vec<T> slip = v - parting * then - T(0.5) * cross(ends.w1 + ends.w2, then);
+      const Vec<T> force = -central - at(across) * slip;
       const Vec<T> half = T(0.5) * cross(force, d);
-      const Vec<T> twist = at(turn) * (ends.w2 - ends.w1);
-      return {copy(force), half + twist, half - twist};
+      const Vec<T> turn = ends.w2 - ends.w1;
+      const T b = at(bending);
+      const Vec<T> couple = b * turn + ((at(twisting) - b) * dot(turn, d) / dot(d, d)) * d;
+      return {copy(force), half + couple, half - couple};
     } else {
-      return {-(at(along) * central), zero<Vec<T>>(), zero<Vec<T>>()};
+      return {-central, zero<Vec<T>>(), zero<Vec<T>>()};
     }
   }
 };
@@ -77,7 +92,7 @@ class Dashpots {
     tables_.clear();
     for (const auto& [law, table] : w.laws()) {
       if (law->acts_when_broken()) continue;
-      for (const Field& field : {along, across, turning}) table->rows().add(field).keep();
+      for (const Field* field : {&along, &across, &bending, &twisting}) table->rows().add(*field).keep();
       table->rebind();
       tables_.push_back(table);
       if (!resumed) fill(w.domain(), *law, *table, zeta, mass, inertia);
@@ -90,14 +105,15 @@ class Dashpots {
   Matrix12 stiffening(const BondTable& table, Index row, const Vec3& d, Real dt) const {
     if (std::find(tables_.begin(), tables_.end(), &table) == tables_.end()) return Matrix12::Zero();
     const auto value = [&](const Field& field) { return table.rows().column(field.name).view<Real>()[row]; };
-    return (2 / dt) * dashpot_matrix({value(along), value(across), value(turning)}, d);
+    return (2 / dt) * dashpot_matrix({value(along), value(across), value(bending), value(twisting)}, d);
   }
 
   /// Adds their forces to those that are there; what they added is remembered for `power`.
-  void act(Domain& domain, const View<Vec3>& force, const View<Vec3>& torque) {
+  void act(Domain& domain, const View<Vec3>& force, const View<Vec3>& torque, Real half_step) {
     const auto count = static_cast<std::size_t>(domain.size());
     pushed_.resize(count);
     turned_.resize(torque ? count : 0);
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
       pushed_[i] = force[static_cast<Index>(i)];
       if (torque) turned_[i] = torque[static_cast<Index>(i)];
@@ -106,11 +122,12 @@ class Dashpots {
     for (BondTable* table : tables_) {
       const auto rate = [&](const Field& field) { return table->rows().column(field.name).view<Real>(); };
       if (torque)
-        bond_loop::run<Pass{}>(DashpotLaw<true>{rate(along), rate(across), rate(turning)}, *table, domain, false);
+        bond_loop::run<Pass{}>(DashpotLaw<true>{rate(along), rate(across), rate(bending), rate(twisting), half_step}, *table, domain, false);
       else
-        bond_loop::run<Pass{}>(DashpotLaw<false>{rate(along), rate(across), rate(turning)}, *table, domain, false);
+        bond_loop::run<Pass{}>(DashpotLaw<false>{rate(along), rate(across), rate(bending), rate(twisting), half_step}, *table, domain, false);
     }
     domain.gather();
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
       pushed_[i] = force[static_cast<Index>(i)] - pushed_[i];
       if (torque) turned_[i] = torque[static_cast<Index>(i)] - turned_[i];
@@ -130,7 +147,8 @@ class Dashpots {
  private:
   static inline const Field along{"damping-along", On::bonds, Type::real, "N.s/m", "Dashpot along the bond", ""};
   static inline const Field across{"damping-across", On::bonds, Type::real, "N.s/m", "Dashpot across the bond", ""};
-  static inline const Field turning{"damping-turning", On::bonds, Type::real, "N.m.s", "Dashpot between the turns of the two ends", ""};
+  static inline const Field bending{"damping-bending", On::bonds, Type::real, "N.m.s", "Dashpot against bending", ""};
+  static inline const Field twisting{"damping-twisting", On::bonds, Type::real, "N.m.s", "Dashpot against twist", ""};
 
   static void fill(const Domain& domain, const BondLaw& law, const BondTable& table, Real zeta, const View<const Real>& mass,
                    const View<const Real>& inertia) {
@@ -139,12 +157,12 @@ class Dashpots {
     for (const Chunk& chunk : table.chunks())
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
         const Index i = table.first()[b], j = table.second()[b];
-        const auto reduced = [&](const View<const Real>& of) { return of ? of[i] * of[j] / (of[i] + of[j]) : 0; };
-        const DashpotRates c = dashpot_rates(law.tangent(domain, table, b), (position[j] - position[i]).normalized(), zeta,
-                                             reduced(mass), reduced(inertia));
+        const DashpotRates c = dashpot_rates(law.tangent(domain, table, b), position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
+                                             inertia ? 1 / inertia[i] + 1 / inertia[j] : 0);
         column(along)[b] = c.along;
         column(across)[b] = c.across;
-        column(turning)[b] = c.turning;
+        column(bending)[b] = c.bending;
+        column(twisting)[b] = c.twisting;
       }
   }
 

@@ -2,9 +2,11 @@
 // Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), each element by itself or their mean.
 // Axes 0..2 are places, 3..5 are turns: those are held still, which spins and torques alone see to.
 //
-// A mean is that of the main body only. A loose element, which no bond holds, would take its share of the force and fly
-// away, and the mean would follow it instead of the specimen.
+// A mean leaves out debris. A loose element, which no bond holds, would take its share of the force and fly away, and the
+// mean would follow it instead of the specimen. What breaks loose later is left out from then on.
 
+#include <algorithm>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,20 +25,35 @@ struct Gripped {
 class Grips {
  public:
   Grips() = default;
-  Grips(Workings& w) : held_(static_cast<std::size_t>(w.domain().size()), 0) {
+  /// Takes hold of the sets, with the bonds that stood after step `when`.
+  Grips(Workings& w, std::int64_t when) : held_(static_cast<std::size_t>(w.domain().size()), 0), driven_(held_) {
     std::vector<const BondTable*> tables;
     for (const auto& [law, table] : w.laws()) tables.push_back(table);
     std::vector<Index> body;
+    std::vector<char> averaged(held_.size(), 0);
     for (const Constraint& c : w.constraints()) {
       const Set& all = w.domain().set(c.set);
-      if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, w.moment().stage_step);
-      sets_.push_back(c.grip == Grip::mean ? main_body(all, body) : all);
+      if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, when);
+      sets_.push_back(c.grip == Grip::mean ? without_debris(all, body) : all);
       if (sets_.back().size() < all.size())
-        w.say(fmt::format("{} of the {} elements of '{}' hang loose and are left out of its mean", all.size() - sets_.back().size(),
-                          all.size(), c.set));
+        w.say(fmt::format("{} of the {} elements of '{}' hang loose (bonded to nothing, or to little debris) and are left out of its mean",
+                          all.size() - sets_.back().size(), all.size(), c.set));
       means_.push_back(0);
-      for (const Index row : sets_.back()) held_[static_cast<std::size_t>(row)] |= static_cast<unsigned char>(1 << c.axis);
+      for (const Index row : sets_.back()) {
+        const auto bit = static_cast<unsigned char>(1 << c.axis);
+        held_[static_cast<std::size_t>(row)] |= bit;
+        if (c.grip == Grip::each) driven_[static_cast<std::size_t>(row)] |= bit;
+        if (c.grip == Grip::mean) averaged[static_cast<std::size_t>(row)] = 1;
+      }
     }
+    if (!body.empty()) note_bonds(w.domain(), tables, averaged);
+  }
+
+  /// Whether one of these breaks, from number `first` on, may have set free a part of what a mean holds.
+  bool loosened(const std::vector<Break>& breaks, std::size_t first) const {
+    for (std::size_t k = first; k < breaks.size(); ++k)
+      if (bonds_of_means_.contains({breaks[k].family, breaks[k].bond})) return true;
+    return false;
   }
 
   /// Rates that jump at the start of a stage: an impulse of the grip, whose work is the kinetic energy it brings.
@@ -58,7 +75,8 @@ class Grips {
     for (int k = 0; k < count; ++k) any |= held(row + k);
     return any != 0;
   }
-  bool holds(Index row, int axis) const { return held_[static_cast<std::size_t>(row)] >> axis & 1; }
+  /// Whether the motion of this very element is prescribed, not only that of a mean.
+  bool drives(Index row, int axis) const { return driven_[static_cast<std::size_t>(row)] >> axis & 1; }
 
   /// Notes where what is gripped stands; to be called before places advance.
   void before_advance(Workings& w, const View<Vec3>& position) {
@@ -165,7 +183,18 @@ class Grips {
   std::vector<Set> sets_;
   std::vector<Real> means_;
   std::vector<std::vector<Real>> places_;
-  std::vector<unsigned char> held_;
+  void note_bonds(const Domain& domain, const std::vector<const BondTable*>& tables, const std::vector<char>& averaged) {
+    for (std::size_t f = 0; f < domain.families().size(); ++f) {
+      const BondTable* table = domain.families()[f].get();
+      if (std::find(tables.begin(), tables.end(), table) == tables.end()) continue;
+      for (Index b = 0; b < table->size(); ++b)
+        if (averaged[static_cast<std::size_t>(table->first()[b])] || averaged[static_cast<std::size_t>(table->second()[b])])
+          bonds_of_means_.insert({static_cast<Index>(f), table->id()[b]});
+    }
+  }
+
+  std::vector<unsigned char> held_, driven_;        // bit `axis`: prescribed there, of the element itself or of a mean; of itself
+  std::set<std::pair<Index, Index>> bonds_of_means_;  // (family, id) of the bonds that hold members of a mean
 };
 
 }  // namespace beadwork

@@ -17,10 +17,11 @@ class StabilityWatch {
 
   /// Throws PhysicsFailure with element, step and the probable cause.
   void look() const {
-    if (!std::isfinite(stable_)) return;  // nothing was bonded
-    check_bonds();
-    check_elements();
-    if (dt() > stable_) check_energy();
+    if (std::isfinite(stable_)) {  // something was bonded
+      check_bonds();
+      check_elements();
+    }
+    if (!std::isfinite(stable_) || dt() > stable_) check_energy();
   }
 
   [[noreturn]] void stop_at_force() const {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/sums.hpp"
@@ -24,7 +25,7 @@ class Verlet final : public Mover {
   Param<Real> safety{this, {.name = "safety", .range = {0, 1, true, false}, .doc = "Time step over the estimate of the largest stable one", .fallback = "0.9"}};
   Param<Real> fixed_step{this, {.name = "time-step", .unit = "s", .range = positive, .doc = "Time step, instead of the one found by itself; a run that exceeds stability is stopped", .optional = true}};
   Param<Real> local_damping{this, {.name = "local-damping", .range = {0, 1, false, true}, .doc = "Share of each force component that is turned against the motion (Cundall)", .fallback = "0"}};
-  Param<Real> bond_damping{this, {.name = "bond-damping", .range = {0, 1, false, true}, .doc = "Damping ratio of a pair of elements: dashpots beside each bond that holds, which keep both momenta", .fallback = "0"}};
+  Param<Real> bond_damping{this, {.name = "bond-damping", .range = {0, 1, false, true}, .doc = "Damping ratio of a pair of elements: dashpots beside each bond, which keep both momenta; bonds that soften, such as cohesive contacts, have none", .fallback = "0"}};
 
   Keeps<Vec3> velocity{this, field::velocity};
   Keeps<Vec3> force{this, field::force};
@@ -36,6 +37,7 @@ class Verlet final : public Mover {
   Reads<Real> radius{this, field::radius};
   Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
   Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
+  Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided what hangs loose in a grip"}};
   Keeps<Real> stable{this, {"stable-step", On::scene, "s", "Largest stable step when the stage began"}};
 
   void choose_rotations(bool wanted) override {
@@ -49,23 +51,31 @@ class Verlet final : public Mover {
   void prepare(Workings& w, bool resumed) override {
     count_ = w.domain().size();
     position_ = w.domain().elements().column("position").view<Vec3>();
-    grips_ = Grips(w);
-    if (*bond_damping > 0) dashpots_.prepare(w, *bond_damping, mass.view(), inertia.view(), resumed);
+    if (!resumed) gripped[0] = static_cast<Real>(w.moment().stage_step);
+    grips_ = Grips(w, std::llround(gripped[0]));
+    const std::vector<Break>& breaks = w.domain().breaks().breaks;
+    seen_breaks_ = static_cast<std::size_t>(std::count_if(breaks.begin(), breaks.end(), [&](const Break& b) { return !resumed || b.step < w.moment().step; }));
+    if (*bond_damping > 0) {
+      dashpots_.prepare(w, *bond_damping, mass.view(), inertia.view(), resumed);
+      if (!dashpots_.any()) w.warn(fmt::format("{}: 'bond-damping' has no effect here: no bonds, or only such as soften", bond_damping.at().where()));
+    }
     if (!resumed) {
       step_ = largest_step(w);
       const Real largest = step_.time_step;
       w.moment().time_step = fixed_step.given() ? *fixed_step : *safety * largest;
       if (!std::isfinite(w.moment().time_step))
         refuse(at(), "nothing in this scene limits the time step: give 'time-step'");
-      w.say(fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step, w.moment().time_step / largest,
-                        step_.by));
+      w.say(std::isfinite(largest) ? fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step,
+                                                 w.moment().time_step / largest, step_.by)
+                                   : fmt::format("time step {:.4g} s; {}", w.moment().time_step, step_.by));
       if (w.moment().time_step > largest)
         w.warn(fmt::format("{}: 'time-step' is {:.4g} s, the largest stable one {:.4g} s; a run that gains energy by it is stopped",
                            fixed_step.at().where(), w.moment().time_step, largest));
       stable[0] = largest;
       w.evaluate(false);
       grips_.seize(w, places(), turns(), *beta);
-      damping_power[0] = damp(w) + dashpots_.power(velocity.view(), spin.view());
+      damping_power[0] = damp(w);
+      damping_power[0] += dashpots_.power(velocity.view(), spin.view());
       grips_.react(w, places(), turns(), *beta);
     }
   }
@@ -73,6 +83,7 @@ class Verlet final : public Mover {
   void step(Workings& w) override {
     Moment& now = w.moment();
     position_ = w.domain().elements().column("position").view<Vec3>();
+    grip_anew_after_breaks(w);
     grips_.before_advance(w, position_);
     if (*beta < 1) beta_damping_.remember(motion());
     advance_all(now.time_step);
@@ -107,21 +118,34 @@ class Verlet final : public Mover {
   Gripped places() const { return {velocity.view(), force.view(), mass.view()}; }
   Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }
 
-  // Local damping makes a force that slows down larger by its share, and so the stiffness that limits the step. Dashpots see
-  // velocities of half a step ago, which limits it as a stiffness 2 C/dt would; dt falls towards the one that fits.
+  // Local damping makes a force that slows down larger by its share, that of dashpots too, and so the stiffness that limits the
+  // step. Dashpots see velocities of half a step ago, which limits it as a stiffness 2 C/dt would; dt falls towards the one that fits.
   StepLimit largest_step(Workings& w) const {
     const auto limit = [&](Real dt) {
-      return step_limit(w, mass.view(), inertia.view(), [&](const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
+      StepLimit found = step_limit(w, mass.view(), inertia.view(), [&](const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
         return std::isfinite(dt) ? dashpots_.stiffening(table, row, apart, dt) : Matrix12::Zero();
       });
+      found.time_step /= std::sqrt(1 + *local_damping);
+      return found;
     };
     StepLimit found = limit(std::numeric_limits<Real>::infinity());
-    for (Real before = 0; dashpots_.any() && std::isfinite(found.time_step) && std::abs(found.time_step - before) > 1e-3 * found.time_step;) {
+    for (Real before = 0; dashpots_.any() && std::isfinite(found.time_step) && std::abs(found.time_step - before) > 1e-5 * found.time_step;) {
       before = found.time_step;
       found = limit(before);
     }
-    found.time_step /= std::sqrt(1 + *local_damping);
     return found;
+  }
+
+  // What broke loose of a mean since the last step is let go; what is left is held to the prescribed velocity.
+  void grip_anew_after_breaks(Workings& w) {
+    const std::vector<Break>& breaks = w.domain().breaks().breaks;
+    if (seen_breaks_ == breaks.size()) return;
+    const bool loosened = grips_.loosened(breaks, seen_breaks_);
+    seen_breaks_ = breaks.size();
+    if (!loosened) return;
+    gripped[0] = static_cast<Real>(w.moment().step);
+    grips_ = Grips(w, w.moment().step);
+    grips_.seize(w, places(), turns(), *beta);
   }
 
   // Places and orientations at the next time; velocities half-way there.   Eq (1)
@@ -169,7 +193,7 @@ class Verlet final : public Mover {
 
   // Both kinds of damping forces; the power of the local one [W].
   Real damp(Workings& w) {
-    if (dashpots_.any()) dashpots_.act(w.domain(), force.view(), torque.view());
+    if (dashpots_.any()) dashpots_.act(w.domain(), force.view(), torque.view(), w.moment().step > w.moment().stage_step ? 0.5 * w.moment().time_step : 0);
     if (*local_damping == 0) return 0;
     return damp_locally(motion(), grips_, *local_damping, 0.5 * *beta * w.moment().time_step);
   }
@@ -179,6 +203,7 @@ class Verlet final : public Mover {
   Grips grips_;
   Dashpots dashpots_;
   BetaDamping beta_damping_;
+  std::size_t seen_breaks_ = 0;  // of the log, that the grips know of
   StepLimit step_;
 };
 

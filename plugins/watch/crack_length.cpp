@@ -8,7 +8,8 @@
 namespace beadwork {
 
 /// How far a crack has run along a plane of cohesive contacts, by two contours: where contacts are fully open, and where
-/// damage begins. What lies between them is the process zone (Fig 15 of the paper).
+/// damage begins. What lies between them is the process zone (Fig 15 of the paper). Both go by the
+/// largest opening so far: a damaged contact that closes again still counts.
 ///
 /// Each contour is the length of the pre-crack plus the damaged area (open area) over the width: for a straight front
 /// that is its place, for a ragged one its mean place.

@@ -27,7 +27,7 @@ HURRY = {
     "dcb": (600, ["v=200 m/s", "a0=1 mm", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
 }
-WALL_CLOCK = {"loop-seconds"}  # told, not computed
+WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
 
 
 class Case:
@@ -101,6 +101,15 @@ class Case:
         return differences
 
 
+    def ran_on(self, instructions):
+        """The libraries that were opened are of this instruction set, or narrower where the processor has less."""
+        with h5py.File(self.folder / instructions / "run.h5") as file:
+            opened = [Path(line.decode().split()[-1]).parent.name for line in file["meta/plugins"][()] if b"move/verlet" in line]
+        can = set(re.search(r"^flags\s*:(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
+        wanted = "avx2" if instructions == "avx2" and "avx2" in can else "beadwork"
+        return [] if opened == [wanted] else [f"asked for {instructions}, opened {opened}"]
+
+
 def count_of(left, right):
     left, right = numpy.asarray(left), numpy.asarray(right)
     if left.shape != right.shape:
@@ -117,7 +126,7 @@ def same_bits(case):
     for instructions in ("avx2", "baseline"):
         os.environ["BEADWORK_INSTRUCTIONS"] = instructions
         case.run(instructions, case.steps, 1)
-        differences += case.compare("one", instructions)
+        differences += case.compare("one", instructions) + case.ran_on(instructions)
     return differences
 
 

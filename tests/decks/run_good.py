@@ -63,8 +63,10 @@ class Results:
         raise Mistake(f"neither a curve, an element nor a figure of the summary: {what}")
 
     def element(self, number, field, axis):
-        with h5py.File(self.folder / "checkpoint.h5") as file:
-            elements = file["elements"]
+        with h5py.File(self.folder / "checkpoint.h5") as saved, h5py.File(self.folder / "run.h5") as record:
+            elements = saved["elements"]
+            if field not in elements:  # derived: in the last frame
+                elements = record["frames"][sorted(record["frames"])[-1]]["elements"]
             row = elements["id"][()].tolist().index(number)
             value = elements[field][row]
             return [value["xyz".index(axis)] if axis else value], elements[field].attrs["unit"].decode()
