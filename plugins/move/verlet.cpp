@@ -151,7 +151,7 @@ class Verlet final : public Mover {
   // Places and orientations at the next time; velocities half-way there.   Eq (1)
   void advance_all(Real dt) {
     const Real half = 0.5 * *beta * dt;
-    rows::each(count_, [=, this, x = position_, v = velocity.view(), q = orientation.view(), w = spin.view(), f = force.view(),
+    rows::each(count_, [=, x = position_, v = velocity.view(), q = orientation.view(), w = spin.view(), f = force.view(),
                         t = torque.view(), m = mass.view(), inert = inertia.view()](const auto& at) {
       using T = typename std::decay_t<decltype(at)>::Number;
       const Vec<T> a = (T(1) / at(m)) * at(f);
