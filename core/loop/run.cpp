@@ -68,8 +68,8 @@ void Run::go_through_stages() {
       save_now_and_then();
     }
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
+    save();  // the next stage may fail at its start
   }
-  save();
 }
 
 void Run::enter(Stage& stage, bool resumed) {

@@ -18,28 +18,25 @@ using Json = nlohmann::ordered_json;
 // Energies by term, in the order in which they were first named; equal names add up.
 class Terms final : public EnergySink {
  public:
-  void work(const std::string& by, Real joule) override { add("work: " + by, joule, work_); }
-  void stored(const std::string& in, Real joule) override { add("stored: " + in, joule, stored_); }
-  void kinetic(Real joule) override { add("kinetic", joule, kinetic_); }
-  void dissipated(const std::string& by, Real joule) override { add("dissipated: " + by, joule, dissipated_); }
+  void work(const std::string& by, Real joule) override { sums_.work(by, joule), add("work: " + by, joule); }
+  void stored(const std::string& in, Real joule) override { sums_.stored(in, joule), add("stored: " + in, joule); }
+  void kinetic(Real joule) override { sums_.kinetic(joule), add("kinetic", joule); }
+  void dissipated(const std::string& by, Real joule) override { sums_.dissipated(by, joule), add("dissipated: " + by, joule); }
 
   Json json(Real initial) const {
     Json all = terms_;
     all["initial"] = initial;
-    all["work"] = work_;
-    all["stored"] = stored_;
-    all["dissipated"] = dissipated_;
-    all["residual"] = initial - (stored_ + kinetic_ + dissipated_ - work_);
+    all["work"] = sums_.worked;
+    all["stored"] = sums_.in_bonds;
+    all["dissipated"] = sums_.taken;
+    all["residual"] = initial - sums_.beyond_work();
     return all;
   }
 
  private:
-  void add(const std::string& name, Real joule, Real& sum) {
-    terms_[name] = terms_.value(name, 0.0) + joule;
-    sum += joule;
-  }
+  void add(const std::string& name, Real joule) { terms_[name] = terms_.value(name, 0.0) + joule; }
   Json terms_ = Json::object();
-  Real work_ = 0, stored_ = 0, kinetic_ = 0, dissipated_ = 0;
+  EnergySums sums_;
 };
 
 }  // namespace
