@@ -9,8 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
-#include <limits>
-#include <utility>
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -78,9 +76,6 @@ struct Pack {
   }
   [[gnu::always_inline]] void store(Real* to) const { std::memcpy(to, &v, sizeof(Native)); }
 
-  [[gnu::always_inline]] Pack& operator+=(const Pack& b) { return v += b.v, *this; }
-  [[gnu::always_inline]] Pack& operator-=(const Pack& b) { return v -= b.v, *this; }
-  [[gnu::always_inline]] Pack& operator*=(const Pack& b) { return v *= b.v, *this; }
   [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) { return {a.v + b.v}; }
   [[gnu::always_inline]] friend Pack operator-(const Pack& a, const Pack& b) { return {a.v - b.v}; }
   [[gnu::always_inline]] friend Pack operator*(const Pack& a, const Pack& b) { return {a.v * b.v}; }

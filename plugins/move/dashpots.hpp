@@ -89,23 +89,24 @@ class Dashpots {
  public:
   /// Finds the rates at the present state, or those that were kept where the run was resumed.
   void prepare(Workings& w, Real zeta, const View<const Real>& mass, const View<const Real>& inertia, bool resumed) {
-    tables_.clear();
+    families_.clear();
     for (const auto& [law, table] : w.laws()) {
       if (law->acts_when_broken()) continue;
       for (const Field* field : {&along, &across, &bending, &twisting}) table->rows().add(*field).keep();
       table->rebind();
-      tables_.push_back(table);
-      if (!resumed) fill(w.domain(), *law, *table, zeta, mass, inertia);
+      const auto rate = [&, rows = &table->rows()](const Field& field) { return rows->column(field.name).view<Real>(); };
+      families_.push_back({table, rate(along), rate(across), rate(bending), rate(twisting)});
+      if (!resumed) fill(w.domain(), *law, families_.back(), zeta, mass, inertia);
     }
   }
 
-  bool any() const { return !tables_.empty(); }
+  bool any() const { return !families_.empty(); }
 
   /// The bonds' part in what limits the step: K grows by 2/dt C.   docs/theory/verlet.md
   Matrix12 stiffening(const BondTable& table, Index row, const Vec3& d, Real dt) const {
-    if (std::find(tables_.begin(), tables_.end(), &table) == tables_.end()) return Matrix12::Zero();
-    const auto value = [&](const Field& field) { return table.rows().column(field.name).view<Real>()[row]; };
-    return (2 / dt) * dashpot_matrix({value(along), value(across), value(bending), value(twisting)}, d);
+    for (const Family& f : families_)
+      if (f.table == &table) return (2 / dt) * dashpot_matrix({f.along[row], f.across[row], f.bending[row], f.twisting[row]}, d);
+    return Matrix12::Zero();
   }
 
   /// Adds their forces to those that are there; what they added is remembered for `power`.
@@ -119,12 +120,11 @@ class Dashpots {
       if (torque) turned_[i] = torque[static_cast<Index>(i)];
     }
     domain.clear_halo();
-    for (BondTable* table : tables_) {
-      const auto rate = [&](const Field& field) { return table->rows().column(field.name).view<Real>(); };
+    for (const Family& f : families_) {
       if (torque)
-        bond_loop::run<Pass{}>(DashpotLaw<true>{rate(along), rate(across), rate(bending), rate(twisting), half_step}, *table, domain, false);
+        bond_loop::run<Pass{}>(DashpotLaw<true>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain, false);
       else
-        bond_loop::run<Pass{}>(DashpotLaw<false>{rate(along), rate(across), rate(bending), rate(twisting), half_step}, *table, domain, false);
+        bond_loop::run<Pass{}>(DashpotLaw<false>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain, false);
     }
     domain.gather();
 #pragma omp parallel for schedule(static)
@@ -150,23 +150,28 @@ class Dashpots {
   static inline const Field bending{"damping-bending", On::bonds, Type::real, "N.m.s", "Dashpot against bending", ""};
   static inline const Field twisting{"damping-twisting", On::bonds, Type::real, "N.m.s", "Dashpot against twist", ""};
 
-  static void fill(const Domain& domain, const BondLaw& law, const BondTable& table, Real zeta, const View<const Real>& mass,
+  struct Family {
+    BondTable* table;
+    View<Real> along, across, bending, twisting;
+  };
+
+  static void fill(const Domain& domain, const BondLaw& law, const Family& family, Real zeta, const View<const Real>& mass,
                    const View<const Real>& inertia) {
     const auto position = domain.elements().column("position").view<Vec3>();
-    const auto column = [&](const Field& field) { return table.rows().column(field.name).view<Real>(); };
+    const BondTable& table = *family.table;
     for (const Chunk& chunk : table.chunks())
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
         const Index i = table.first()[b], j = table.second()[b];
         const DashpotRates c = dashpot_rates(law.tangent(domain, table, b), position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
                                              inertia ? 1 / inertia[i] + 1 / inertia[j] : 0);
-        column(along)[b] = c.along;
-        column(across)[b] = c.across;
-        column(bending)[b] = c.bending;
-        column(twisting)[b] = c.twisting;
+        family.along[b] = c.along;
+        family.across[b] = c.across;
+        family.bending[b] = c.bending;
+        family.twisting[b] = c.twisting;
       }
   }
 
-  std::vector<BondTable*> tables_;
+  std::vector<Family> families_;
   std::vector<Vec3> pushed_, turned_;  // what the dashpots added to each element's load
 };
 
