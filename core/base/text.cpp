@@ -55,6 +55,11 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
       best_edits = edits;
     }
   }
+  if (best) return *best;
+  constexpr std::size_t telling = 3;  // letters of a part that says which whole is meant
+  if (word.size() < telling) return {};
+  for (const std::string& candidate : candidates)
+    if (lower(candidate).find(folded) != std::string::npos && (!best || candidate.size() < best->size())) best = &candidate;
   return best ? *best : std::string();
 }
 

@@ -20,76 +20,41 @@ double sign_of(double a) { return std::isnan(a) ? nan : (a > 0) - (a < 0); }
 double apply(Operation operation, double a, double b, double c) {
   switch (operation) {
     case Operation::constant:
-    case Operation::variable:
-      return a;
-    case Operation::add:
-      return a + b;
-    case Operation::subtract:
-      return a - b;
-    case Operation::multiply:
-      return a * b;
-    case Operation::divide:
-      return a / b;
-    case Operation::power:
-      return std::pow(a, b);
-    case Operation::negate:
-      return -a;
-    case Operation::less:
-      return truth(a < b, a, b);
-    case Operation::less_equal:
-      return truth(a <= b, a, b);
-    case Operation::greater:
-      return truth(a > b, a, b);
-    case Operation::greater_equal:
-      return truth(a >= b, a, b);
-    case Operation::equal:
-      return truth(a == b, a, b);
-    case Operation::different:
-      return truth(a != b, a, b);
-    case Operation::both:
-      return truth(a != 0 && b != 0, a, b);
-    case Operation::either:
-      return truth(a != 0 || b != 0, a, b);
-    case Operation::opposite:
-      return truth(a == 0, a, a);
-    case Operation::choose:
-      return std::isnan(a) ? nan : a != 0 ? b : c;
-    case Operation::square_root:
-      return std::sqrt(a);
-    case Operation::absolute:
-      return std::abs(a);
-    case Operation::minimum:
-      return std::isnan(a) || std::isnan(b) ? nan : std::min(a, b);
-    case Operation::maximum:
-      return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b);
-    case Operation::sine:
-      return std::sin(a);
-    case Operation::cosine:
-      return std::cos(a);
-    case Operation::tangent:
-      return std::tan(a);
-    case Operation::arc_sine:
-      return std::asin(a);
-    case Operation::arc_cosine:
-      return std::acos(a);
-    case Operation::arc_tangent:
-      return std::atan(a);
-    case Operation::arc_tangent_of_two:
-      return std::atan2(a, b);
-    case Operation::exponential:
-      return std::exp(a);
-    case Operation::logarithm:
-      return std::log(a);
-    case Operation::logarithm_10:
-      return std::log10(a);
-    case Operation::floor:
-      return std::floor(a);
-    case Operation::ceiling:
-      return std::ceil(a);
-    case Operation::round:
-      return std::round(a);
-    case Operation::sign:
-      return sign_of(a);
+    case Operation::variable: return a;
+    case Operation::add: return a + b;
+    case Operation::subtract: return a - b;
+    case Operation::multiply: return a * b;
+    case Operation::divide: return a / b;
+    case Operation::power: return std::pow(a, b);
+    case Operation::negate: return -a;
+    case Operation::less: return truth(a < b, a, b);
+    case Operation::less_equal: return truth(a <= b, a, b);
+    case Operation::greater: return truth(a > b, a, b);
+    case Operation::greater_equal: return truth(a >= b, a, b);
+    case Operation::equal: return truth(a == b, a, b);
+    case Operation::different: return truth(a != b, a, b);
+    case Operation::both: return truth(a != 0 && b != 0, a, b);
+    case Operation::either: return truth(a != 0 || b != 0, a, b);
+    case Operation::opposite: return truth(a == 0, a, a);
+    case Operation::choose: return std::isnan(a) ? nan : a != 0 ? b : c;
+    case Operation::square_root: return std::sqrt(a);
+    case Operation::absolute: return std::abs(a);
+    case Operation::minimum: return std::isnan(a) || std::isnan(b) ? nan : std::min(a, b);
+    case Operation::maximum: return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b);
+    case Operation::sine: return std::sin(a);
+    case Operation::cosine: return std::cos(a);
+    case Operation::tangent: return std::tan(a);
+    case Operation::arc_sine: return std::asin(a);
+    case Operation::arc_cosine: return std::acos(a);
+    case Operation::arc_tangent: return std::atan(a);
+    case Operation::arc_tangent_of_two: return std::atan2(a, b);
+    case Operation::exponential: return std::exp(a);
+    case Operation::logarithm: return std::log(a);
+    case Operation::logarithm_10: return std::log10(a);
+    case Operation::floor: return std::floor(a);
+    case Operation::ceiling: return std::ceil(a);
+    case Operation::round: return std::round(a);
+    case Operation::sign: return sign_of(a);
   }
   return nan;
 }

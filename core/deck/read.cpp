@@ -1,5 +1,6 @@
 #include "core/deck/read.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/text.hpp"
@@ -58,9 +59,14 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, std::
   const auto values = evaluate_pieces(attribute.value, attribute.value_at, scope, complaints, mistake);
   if (mistake) return refuse(mistake->reason.empty() ? "" : ": " + mistake->reason, mistake->at);
   if (!values) return {};
+  const auto has_unit = [&](const Value& v) { return v.quantity.dimension == dimension_of(unit); };
+  const bool any_has_unit = std::any_of(values->begin(), values->end(), has_unit);
   std::vector<double> result;
   for (const Value& each : *values) {
-    if (const auto why = objection(each, unit, values->size() > 1)) return refuse(*why);
+    const bool is_zero = each.is_bare && each.is_literal && each.quantity.value == 0;
+    const bool borrows = is_zero && any_has_unit;  // "0 0 ${height}": a zero takes the unit of the others
+    const auto why = borrows ? std::nullopt : objection(each, unit, values->size() > 1);
+    if (why) return refuse(*why);
     if (!std::isfinite(each.quantity.value)) return refuse(": it is out of range");
     result.push_back(each.quantity.value);
   }

@@ -123,7 +123,7 @@ class StepRecorder {
   }
 
   Operand joined(const Dimension& dimension, int a, int b) const {
-    return {dimension,          false,           operands_[a].is_constant && operands_[b].is_constant, 0,
+    return {dimension, false, operands_[a].is_constant && operands_[b].is_constant, 0,
             operands_[a].begin, operands_[b].end};
   }
 

@@ -62,7 +62,7 @@ class Scope {
 
   std::vector<Entry> entries_;                             // in the order of the deck
   std::map<std::string, std::size_t, std::less<>> index_;  // of a name in entries_
-  mutable std::vector<const Entry*> running_;  ///< those being worked out, outermost first: finds circles
+  mutable std::vector<const Entry*> running_;              ///< those being worked out, outermost first: finds circles
 };
 
 }  // namespace beadwork

@@ -20,8 +20,8 @@ Index block_length(Index elements);
 Index block_count(Index elements);
 
 struct Chunk {
-  Index begin = 0;      ///< first bond
-  Index live_end = 0;   ///< bonds from here on are broken and take part in nothing
+  Index begin = 0;     ///< first bond
+  Index live_end = 0;  ///< bonds from here on are broken and take part in nothing
   Index end = 0;
   Index halo_begin = 0;  ///< rows of the force line that this chunk alone writes
   Index halo_end = 0;

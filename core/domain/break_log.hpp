@@ -9,13 +9,13 @@
 namespace beadwork {
 
 struct Break {
-  Real time = 0;       ///< [s]
+  Real time = 0;  ///< [s]
   std::int64_t step = 0;
-  Index family = 0;    ///< place of the family in Domain::families
-  Index bond = 0;      ///< stable id
-  Index mode = 0;      ///< place of the mode's name in BreakLog::modes
+  Index family = 0;           ///< place of the family in Domain::families
+  Index bond = 0;             ///< stable id
+  Index mode = 0;             ///< place of the mode's name in BreakLog::modes
   Vec3 place = zero<Vec3>();  ///< middle of the bond [m]
-  Real energy = 0;     ///< released with this break [J]
+  Real energy = 0;            ///< released with this break [J]
 };
 
 struct BreakLog {

@@ -21,8 +21,7 @@ class View {
   View() = default;
   View(Byte* base, std::size_t stride, std::size_t plane) : base_(base), stride_(stride), plane_(plane) {}
   operator View<const Value>() const
-    requires(!std::is_const_v<T>)
-  {
+      requires(!std::is_const_v<T>) {
     return {base_, stride_, plane_};
   }
 

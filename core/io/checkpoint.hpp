@@ -12,11 +12,11 @@
 namespace beadwork {
 
 struct CheckpointMeta {
-  std::string version;      ///< of the program
+  std::string version;  ///< of the program
   std::string deck_sha256;
-  std::string resolved;     ///< text of the resolved deck, for comparing it line by line
+  std::string resolved;  ///< text of the resolved deck, for comparing it line by line
   Index stage = 0;
-  Real time = 0;            ///< [s]
+  Real time = 0;  ///< [s]
   std::int64_t step = 0;
   std::uint64_t seed = 0;
   std::map<std::string, std::string> texts;  ///< whatever else the caller wants back

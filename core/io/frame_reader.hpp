@@ -56,7 +56,7 @@ class FrameReader {
   FrameReader& operator=(const FrameReader&) = delete;
 
   const std::vector<FrameHead>& frames() const { return frames_; }  ///< in the order of their steps
-  int unreadable_frames() const { return unreadable_; }  ///< links whose target is missing or damaged
+  int unreadable_frames() const { return unreadable_; }             ///< links whose target is missing or damaged
 
   Frame read(const FrameHead&) const;  ///< throws MachineFailure
   Breaks breaks() const;               ///< empty where there is none

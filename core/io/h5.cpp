@@ -10,8 +10,8 @@ namespace beadwork::h5 {
 
 namespace {
 
-constexpr hsize_t chunk_rows = 65536;         // of packed datasets: enough to compress well, small enough to read apart
-constexpr std::size_t growth = 1024 * 1024;   // of a file in memory
+constexpr hsize_t chunk_rows = 65536;        // of packed datasets: enough to compress well, small enough to read apart
+constexpr std::size_t growth = 1024 * 1024;  // of a file in memory
 
 herr_t innermost(unsigned depth, const H5E_error2_t* error, void* out) {
   if (depth == 0 && error->desc) *static_cast<std::string*>(out) = error->desc;

@@ -17,14 +17,14 @@ namespace beadwork {
 /// What run.h5 says of the run as a whole.
 struct RunMeta {
   std::string name;
-  std::string deck;                  ///< text as it was read
-  std::string resolved;              ///< text with every value in SI
+  std::string deck;      ///< text as it was read
+  std::string resolved;  ///< text with every value in SI
   std::string deck_sha256;
   std::string version;
   std::vector<std::string> plugins;  ///< "section/tag version path-of-library"
   int threads = 1;
   std::uint64_t seed = 0;
-  std::string packing;               ///< report on the packing, as JSON
+  std::string packing;  ///< report on the packing, as JSON
 };
 
 struct FrameStamp {

@@ -27,9 +27,9 @@ struct XdmfGrid {
 };
 
 struct XdmfFrame {
-  Real time = 0;  ///< [s]
-  XdmfGrid elements;           ///< has an array "position"
-  std::vector<XdmfGrid> bonds; ///< each has an array "ends"
+  Real time = 0;                ///< [s]
+  XdmfGrid elements;            ///< has an array "position"
+  std::vector<XdmfGrid> bonds;  ///< each has an array "ends"
 };
 
 /// One grid at one time, as text.

@@ -66,6 +66,8 @@ void Assembly::run() {
     if (!pulled) complaints_.error(watcher->moments.at(), "'at' waits for a displacement, but nothing in <load> is pulled");
   if (std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
+  if (complaints_.errors() == 0)  // else a law may be missing that is only misspelt
+    for (const Stage& stage : scene_.stages) stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_);
   deck_.scope.complain_about_unused(complaints_);
   if (complaints_.errors() == 0) lay_out_fields();
 }

@@ -17,8 +17,8 @@ namespace beadwork {
 struct RunOptions {
   int threads = 1;
   bool resume = false;
-  Real checkpoint_seconds = 600;               ///< wall time between checkpoints
-  Real first_checkpoint_seconds = 60;          ///< until the first one, where that is less
+  Real checkpoint_seconds = 600;                ///< wall time between checkpoints
+  Real first_checkpoint_seconds = 60;           ///< until the first one, where that is less
   const std::atomic<int>* interrupt = nullptr;  ///< not zero: write a checkpoint and stop
   std::function<void(const std::string&)> say = [](const std::string&) {};
   std::function<void(const std::string&)> warn = [](const std::string&) {};
@@ -36,8 +36,8 @@ struct RunFigures {
 
 /// What a few steps of the first stage tell of a run, for `plan`.
 struct Trial {
-  Real fill_seconds = 0;      ///< filling, bonding, finding the time step
-  Real time_step = 0;         ///< [s]
+  Real fill_seconds = 0;  ///< filling, bonding, finding the time step
+  Real time_step = 0;     ///< [s]
   std::string limited_by;
   int steps = 0;
   Real seconds_per_step = 0;  ///< without what is recorded
@@ -135,13 +135,13 @@ class Run final : private Workings, private Sight {
   std::vector<std::vector<Real>> until_maxima_;       ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
   std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
-  std::set<const Derived*> derived_now_;  ///< fields that stand for the present state
-  Real wall_before_ = 0;                  ///< seconds of the sessions before a restart
-  std::size_t owed_ = 0;  ///< watchers of this stage that have not had their turn at this step, last in the order
-  bool whole_ = false;    ///< the state is that at the end of a step
-  std::map<const BondTable*, Real> released_;  ///< energy of broken bonds, and of families that act no longer [J]
-  Real initial_energy_ = 0;     ///< there without any work [J]
-  Real left_at_stage_end_ = 0;  ///< beyond_work() when the stage before ended [J]
+  std::set<const Derived*> derived_now_;                ///< fields that stand for the present state
+  Real wall_before_ = 0;                                ///< seconds of the sessions before a restart
+  std::size_t owed_ = 0;                                ///< watchers of this stage that have not had their turn at this step, last in the order
+  bool whole_ = false;                                  ///< the state is that at the end of a step
+  std::map<const BondTable*, Real> released_;           ///< energy of broken bonds, and of families that act no longer [J]
+  Real initial_energy_ = 0;                             ///< there without any work [J]
+  Real left_at_stage_end_ = 0;                          ///< beyond_work() when the stage before ended [J]
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;

@@ -4,9 +4,9 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/domain/order.hpp"
 #include "core/loop/connect.hpp"
 #include "core/loop/run.hpp"
-#include "core/domain/order.hpp"
 
 namespace beadwork {
 

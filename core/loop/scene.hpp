@@ -46,9 +46,9 @@ class Scene {
   std::vector<Filler*> fillers;
   std::vector<Derived*> derived;
   std::vector<Stage> stages;
-  std::vector<std::string> families;  ///< names, in the order of their tables
-  std::unique_ptr<Domain> domain;     ///< with every column that the plugins ask for, and no rows yet
-  std::set<const Plugin*> section_readers;  ///< plugins that read what bond laws offer of each bond
+  std::vector<std::string> families;                              ///< names, in the order of their tables
+  std::unique_ptr<Domain> domain;                                 ///< with every column that the plugins ask for, and no rows yet
+  std::set<const Plugin*> section_readers;                        ///< plugins that read what bond laws offer of each bond
   std::map<const Derived*, std::set<const Plugin*>> derived_for;  ///< who reads a derived field, through others too
 
   /// The stage in which a family first stands.

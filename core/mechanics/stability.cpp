@@ -86,7 +86,7 @@ void ElasticNetwork::multiply(std::span<const Real> x, std::span<Real> y) const 
       const Block& block = blocks_[at(bond)];
       const Real* x1 = &x[6 * at(ends.first)];
       const Real* x2 = &x[6 * at(ends.second)];
-      const Real z[9] = {x1[3],         x1[4], x1[5], x2[0] - x1[0], x2[1] - x1[1],
+      const Real z[9] = {x1[3], x1[4], x1[5], x2[0] - x1[0], x2[1] - x1[1],
                          x2[2] - x1[2], x2[3], x2[4], x2[5]};
       const auto row = [&](std::size_t r) {
         Real total = 0;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/packing/blocks.hpp"
 #include "core/domain/order.hpp"
+#include "core/packing/blocks.hpp"
 
 namespace beadwork::packing {
 

@@ -38,8 +38,8 @@ struct PackingReport {
   Real mean_radius = 0, min_radius = 0, max_radius = 0;
   std::vector<Real> histogram_edges;  ///< R / mean R
   std::vector<std::size_t> histogram;
-  Real kolmogorov = 0;  ///< distance of the radii from the law asked for
-  Real bond_order = 0;  ///< mean correlation of the bond directions of neighbours (l = 6): 1 in a crystal
+  Real kolmogorov = 0;         ///< distance of the radii from the law asked for
+  Real bond_order = 0;         ///< mean correlation of the bond directions of neighbours (l = 6): 1 in a crystal
   Real crystalline_share = 0;  ///< elements whose surroundings agree with those of 7 neighbours or more
 };
 

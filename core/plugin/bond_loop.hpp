@@ -16,9 +16,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/mechanics/lane.hpp"
 #include "core/base/pack.hpp"
 #include "core/base/sums.hpp"
+#include "core/mechanics/lane.hpp"
 #include "core/mechanics/wrench.hpp"
 #include "core/plugin/kinds.hpp"
 
@@ -26,8 +26,8 @@ namespace beadwork {
 
 template <class T>
 struct Ends {
-  Vec<T> apart;          ///< x2 - x1 [m]
-  Quaternion<T> q1, q2;  ///< where the law turns
+  Vec<T> apart;           ///< x2 - x1 [m]
+  Quaternion<T> q1, q2;   ///< where the law turns
   Vec<T> v1, v2, w1, w2;  ///< velocities and spins, where the law reads them
 };
 

@@ -14,11 +14,11 @@ namespace beadwork {
 
 /// Where the run stands.
 struct Moment {
-  Real time = 0;            ///< [s]
+  Real time = 0;  ///< [s]
   std::int64_t step = 0;
-  Real time_step = 0;       ///< [s]
+  Real time_step = 0;  ///< [s]
   int stage = 0;
-  Real stage_start = 0;     ///< [s]
+  Real stage_start = 0;         ///< [s]
   std::int64_t stage_step = 0;  ///< step at which the stage began
 };
 
@@ -27,9 +27,9 @@ struct Moment {
 /// What a filling plugin is told and may say.
 struct FillJob {
   std::uint64_t seed = 0;
-  std::function<void(const std::string&)> say;          ///< a line for the log
+  std::function<void(const std::string&)> say;  ///< a line for the log
   std::function<void(const std::string&)> warn;
-  std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
+  std::function<void(const std::string& json)> report;          ///< a packing report, a JSON object
   std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
   /// To be called now and then in long work: throws Interrupted if the user wants to stop.
   std::function<void()> pause = [] {};
@@ -111,14 +111,14 @@ enum class Grip {
 
 /// Rows (element, axis, coefficient) = value(t).
 struct Constraint {
-  std::string by;   ///< id of the load
+  std::string by;  ///< id of the load
   std::string set;
-  int axis = 0;     ///< 0 x, 1 y, 2 z; 3 4 5 the turns about them, which can be held only
+  int axis = 0;  ///< 0 x, 1 y, 2 z; 3 4 5 the turns about them, which can be held only
   Grip grip = Grip::each;
-  bool driven = false;  ///< it moves (pull), as against holding still
+  bool driven = false;                           ///< it moves (pull), as against holding still
   std::function<PrescribedMotion(Real)> motion;  ///< displacement since then, velocity, acceleration, of the time since the start of the stage
-  Real reaction = 0;  ///< sum of the forces that keep it, at the last accepted step [N]
-  Real work = 0;      ///< of these forces so far [J]
+  Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
+  Real work = 0;                                 ///< of these forces so far [J]
 };
 
 class Load : public Plugin {
@@ -165,6 +165,8 @@ class Mover : public Plugin {
 
   /// Told before anything is allocated: whether some plugin reads orientations or adds torques.
   virtual void choose_rotations(bool wanted) = 0;
+  /// Complains of a stage that it cannot advance; `any_law`: bonds act in it.
+  virtual void check_stage(const std::string& /*stage*/, bool /*any_law*/, Complaints&) const {}
   /// Before the first step of the stage: forces at the present state, time step. After a restart (`resumed`) both are
   /// what was kept.
   virtual void prepare(Workings& workings, bool resumed) = 0;
@@ -217,10 +219,10 @@ struct CurvePlan {
   std::string name;
   std::vector<std::pair<std::string, std::string>> columns;  ///< (name, unit), behind step and time
   std::string title;
-  std::string x;                                              ///< column on the abscissa; empty is time
+  std::string x;  ///< column on the abscissa; empty is time
   std::vector<std::string> y;
-  std::vector<std::string> references;                        ///< files of reference data, from the deck's folder
-  std::string kind;                                           ///< "ledger" for an energy balance
+  std::vector<std::string> references;  ///< files of reference data, from the deck's folder
+  std::string kind;                     ///< "ledger" for an energy balance
 };
 
 struct FramePlan {

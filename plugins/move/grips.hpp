@@ -193,7 +193,7 @@ class Grips {
     }
   }
 
-  std::vector<unsigned char> held_, driven_;        // bit `axis`: prescribed there, of the element itself or of a mean; of itself
+  std::vector<unsigned char> held_, driven_;          // bit `axis`: prescribed there, of the element itself or of a mean; of itself
   std::set<std::pair<Index, Index>> bonds_of_means_;  // (family, id) of the bonds that hold members of a mean
 };
 

@@ -8,7 +8,7 @@ namespace beadwork {
 struct Motion {
   Index count = 0;
   View<Vec3> place, velocity, force;
-  View<Quat> orientation;   ///< with spin, torque and inertia: null where nothing turns
+  View<Quat> orientation;  ///< with spin, torque and inertia: null where nothing turns
   View<Vec3> spin, torque;
   View<const Real> mass, inertia, radius;
 };

@@ -45,6 +45,10 @@ class Verlet final : public Mover {
                           static_cast<FieldUse*>(&inertia)})
       use->want(wanted);
   }
+  void check_stage(const std::string& stage, bool any_law, Complaints& complaints) const override {
+    if (!any_law && !fixed_step.given())
+      complaints.error(at(), fmt::format("no bonds act in stage '{}', so nothing limits its time step: give 'time-step'", stage));
+  }
   Real time_step() const override { return step_.time_step; }
   std::string limited_by() const override { return step_.by; }
 
@@ -64,7 +68,7 @@ class Verlet final : public Mover {
       const Real largest = step_.time_step;
       w.moment().time_step = fixed_step.given() ? *fixed_step : *safety * largest;
       if (!std::isfinite(w.moment().time_step))
-        refuse(at(), "nothing in this scene limits the time step: give 'time-step'");
+        refuse(at(), "the bonds of this stage are none, or without stiffness, so nothing limits the time step: give 'time-step'");
       w.say(std::isfinite(largest) ? fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step,
                                                  w.moment().time_step / largest, step_.by)
                                    : fmt::format("time step {:.4g} s; {}", w.moment().time_step, step_.by));
@@ -112,8 +116,8 @@ class Verlet final : public Mover {
 
  private:
   Motion motion() const {
-    return {count_,        position_,    velocity.view(), force.view(),   orientation.view(),
-            spin.view(),   torque.view(), mass.view(),     inertia.view(), radius.view()};
+    return {count_, position_, velocity.view(), force.view(), orientation.view(),
+            spin.view(), torque.view(), mass.view(), inertia.view(), radius.view()};
   }
   Gripped places() const { return {velocity.view(), force.view(), mass.view()}; }
   Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }

@@ -12,12 +12,10 @@ ALLOWED = {
     "domain": {"base"},
     "io": {"base", "domain"},
     "packing": {"base", "domain"},
-    "statics": {"base", "domain", "mechanics"},
     "plugin": {"base", "deck", "domain", "mechanics"},
     "loop": {"base", "deck", "domain", "mechanics", "plugin", "io"},
-    "workbench": {"base", "deck", "domain", "mechanics", "plugin", "loop", "io", "packing", "statics"},
+    "workbench": {"base", "deck", "domain", "mechanics", "plugin", "loop", "io", "packing"},
     "plugins/fill": PLUGIN_BASE | {"packing", "io"},
-    "plugins/move": PLUGIN_BASE | {"statics"},
     "plugins/watch": PLUGIN_BASE | {"io"},
 }
 # Each of these libraries is known to one part only.

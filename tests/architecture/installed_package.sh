@@ -47,6 +47,18 @@ tail -n 1 "$work/out/curves/force.csv" | awk -F, '{ if ($5 <= 0 || ($4 / $5 - 1)
   fail "the ropes pull with another force than k/2 times the displacement"
 expect 2 "no <rope> in <bond>" -- "$beadwork" check "$deck"
 
+echo "what is told of bonds holds for a law of one's own: dashpots, for one"
+expect 0 -- "$beadwork" run "$source/tests/architecture/installed_package/damped.xml" --plugins "$ropes" --out "$work/damped" --threads 1
+/usr/bin/python3 - "$work/damped/curves/energy.csv" <<'END' || fail "dashpots take another share of the energy than their damping ratio says"
+import csv, math, sys
+names, *rows = csv.reader(open(sys.argv[1]))
+kinetic = [float(row[[n.split(" ")[0] for n in names].index("kinetic")]) for row in rows]
+zeta = 0.2
+expected = math.exp(-2 * math.pi * zeta / math.sqrt(1 - zeta**2))
+print(kinetic[-1] / kinetic[0], "expected", expected)
+sys.exit(abs(kinetic[-1] / kinetic[0] / expected - 1) > 0.005)
+END
+
 echo "a library for another kernel is refused, with both stamps"
 build_project "$source/tests/architecture/installed_package" "$work/others"
 expect 4 "library: beadwork 0.0.1, another compiler" "program: beadwork " -- "$beadwork" check "$deck" --plugins "$work/others/foreign.so"

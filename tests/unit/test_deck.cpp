@@ -414,6 +414,11 @@ TEST_F(AValue, may_be_a_vector_whose_unit_stands_once) {
   EXPECT_EQ(vector("${side} ${side} 2 mm", "m"), Vec3(28e-6, 28e-6, 2e-3));
   EXPECT_EQ(vector("1 cm 2 3 mm", "m"), Vec3(1e-2, 2e-3, 3e-3));
   EXPECT_EQ(vector("1 0 -1", "1"), Vec3(1, 0, -1));
+  EXPECT_EQ(vector("0 0 ${side}", "m"), Vec3(0, 0, 28e-6)) << "zero needs no unit beside others that have theirs";
+  EXPECT_FALSE(vector("0 1 ${side}", "m"));
+  EXPECT_THAT(said(), HasSubstr(": 1 has no unit"));
+  EXPECT_FALSE(vector("0 0 0", "m"));
+  EXPECT_THAT(said(), HasSubstr(": 0 has no unit"));
   EXPECT_EQ(vector("${point}", "m"), Vec3(1e-3, 2e-3, 3e-3));
   EXPECT_TRUE(complaints.empty()) << complaints.text();
   EXPECT_FALSE(vector("1 2 mm", "m"));

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "core/base/random.hpp"
-#include "core/packing/blocks.hpp"
 #include "core/domain/neighbours.hpp"
+#include "core/packing/blocks.hpp"
 #include "core/packing/crowd.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/projection.hpp"

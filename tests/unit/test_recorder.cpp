@@ -28,8 +28,7 @@ struct Recording {
   Recorder recorder;
 
   explicit Recording(const fs::path& root, Index count = 200, Recorder::Options options = {})
-      : folder(RunFolder::fresh(root, true)), recorder((declare_bar(domain), fill_bar(domain, count),
-                                                        Recorder::fresh(folder, about_the_run, options, domain))) {}
+      : folder(RunFolder::fresh(root, true)), recorder((declare_bar(domain), fill_bar(domain, count), Recorder::fresh(folder, about_the_run, options, domain))) {}
 
   FrameRequest request() {
     const BondTable& resin = *domain.families()[0];

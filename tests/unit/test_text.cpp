@@ -17,6 +17,12 @@ TEST(Text, a_misspelt_word_finds_the_one_that_was_meant) {
   EXPECT_EQ(closest("x", {"y"}), "");
 }
 
+TEST(Text, a_part_of_a_name_stands_for_the_shortest_name_that_has_it) {
+  const std::vector<std::string> tags{"bond/cohesive-beam", "cohesive-beam", "cohesive-contact"};
+  EXPECT_EQ(closest("beam", tags), "cohesive-beam");
+  EXPECT_EQ(closest("co", tags), "");
+}
+
 TEST(Text, two_swapped_letters_are_one_edit) { EXPECT_EQ(closest("abdc", {"wxyz", "abcd"}), "abcd"); }
 
 TEST(Text, case_decides_between_equals) { EXPECT_EQ(closest("Mpa", {"mpa", "MPa"}), "mpa"); }

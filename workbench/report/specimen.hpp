@@ -40,7 +40,7 @@ struct Legend {
 struct Stage {
   std::vector<View> views;
   Real magnification = 1;
-  std::vector<std::string> interfaces;  ///< families that soften, and are few enough to be drawn whole
+  std::vector<std::string> interfaces;          ///< families that soften, and are few enough to be drawn whole
   std::map<std::int64_t, Color> element_color;  ///< by id; others have the colour of the body
   std::vector<Legend> sets;
 };
