@@ -9,3 +9,10 @@ foreach(deck IN LISTS decks)
     set_tests_properties(cases/${name}/${question} PROPERTIES LABELS cases TIMEOUT 600 ENVIRONMENT "BEADWORK_PLUGINS=")
   endforeach()
 endforeach()
+
+# What a run leaves opens in ParaView itself, where that is installed.
+find_program(PVPYTHON pvpython)
+if(PVPYTHON)
+  add_test(NAME cases/opens_in_paraview COMMAND bash ${here}/opens_in_paraview.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
+  set_tests_properties(cases/opens_in_paraview PROPERTIES LABELS cases TIMEOUT 600 ENVIRONMENT "BEADWORK_PLUGINS=")
+endif()

@@ -78,5 +78,11 @@ extern \"C\" const std::vector<beadwork::PluginEntry>* beadwork_plugins() {
       set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
     endif()
   endforeach()
+  foreach(variant avx2 avx512)
+    if(NOT variant IN_LIST variants)  # one of an earlier build would be opened before this library
+      add_custom_command(TARGET ${library} POST_BUILD
+                         COMMAND ${CMAKE_COMMAND} -E rm -f $<TARGET_FILE_DIR:${library}>/${variant}/$<TARGET_FILE_NAME:${library}>)
+    endif()
+  endforeach()
   set(BEADWORK_VARIANTS_${library} ${variants} PARENT_SCOPE)
 endfunction()
