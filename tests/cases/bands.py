@@ -159,20 +159,25 @@ def notched_bar():
     near("twice the strength, twice the peak", max(strong.curve("force")["force"]), 2 * peak, 0.02)
 
 
+# Strains along the three axes and force of the last frame, over those elements that `inside` picks by their places.
+def stretch(result, inside):
+    with h5py.File(result.folder / "run.h5") as file:
+        name = sorted(file["frames"])[-1]
+        elements = file["frames"][name]["elements"]
+        moved = elements["displacement"][:]
+        place = elements["position"][:] - moved
+    middle = inside(place)
+    strain = [numpy.polyfit(place[middle, c], moved[middle, c], 1)[0] for c in range(3)]
+    curve = result.curve("force")
+    return strain, curve["force"][curve["step"].index(int(name))]
+
+
 # Young's modulus and Poisson's ratio of the packing, from the strain in its middle.
 def tension():
     a, moduli, ratios = 5e-3, [], []
     for axis, deck in enumerate(("quick.xml", "y.xml", "z.xml")):
         result = run(f"tension/{deck}")
-        with h5py.File(result.folder / "run.h5") as file:
-            name = sorted(file["frames"])[-1]
-            elements = file["frames"][name]["elements"]
-            moved = elements["displacement"][:]
-            place = elements["position"][:] - moved
-        middle = (abs(place - a / 2) < 0.35 * a).all(axis=1)
-        strain = [numpy.polyfit(place[middle, c], moved[middle, c], 1)[0] for c in range(3)]
-        curve = result.curve("force")
-        force = curve["force"][curve["step"].index(int(name))]
+        strain, force = stretch(result, lambda place: (abs(place - a / 2) < 0.35 * a).all(axis=1))
         moduli.append(force / a**2 / strain[axis] / 1e9)
         ratios.append(-(sum(strain) - strain[axis]) / 2 / strain[axis])
         below("ledger's residual over work", abs(result.energy["residual"]) / result.energy["work"], 1e-6)
@@ -180,6 +185,13 @@ def tension():
         near(f"E_{axis} [GPa], the paper's for E_mu = 1100 GPa", modulus, 135, 0.15)
         near(f"nu across {axis}, the paper's for a radius ratio of 0.49", ratio, 0.24, 0.03 / 0.24)
     below("isotropy: largest over smallest E, less 1", max(moduli) / min(moduli) - 1, 0.05)
+
+    rod = run("tension/rod.xml")
+    radius, length = 2.5e-3, 12e-3
+    core = lambda place: (abs(place[:, 2] - length / 2) < 0.35 * length) & (numpy.hypot(place[:, 0], place[:, 1]) < 0.7 * radius)
+    strain, force = stretch(rod, core)
+    near("E of a round rod [GPa]", force / (math.pi * radius**2) / strain[2] / 1e9, 135, 0.15)
+    near("nu of a round rod", -(strain[0] + strain[1]) / 2 / strain[2], 0.24, 0.03 / 0.24)
 
 
 with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
