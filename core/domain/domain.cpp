@@ -23,7 +23,6 @@ Index Domain::add_elements(Index count) {
   for (Index row = first; row < size(); ++row) id[row] = row;
   if (Column* orientation = elements_.find("orientation"))
     for (Index row = first; row < size(); ++row) orientation->view<Quat>().set(row, identity());
-  touch();
   return first;
 }
 
@@ -35,7 +34,6 @@ void Domain::reorder(const std::vector<Index>& order) {
     for (Index& row : set) row = row_of[static_cast<std::size_t>(row)];
     std::sort(set.begin(), set.end());
   }
-  touch();
 }
 
 const Set& Domain::set(const std::string& name) const {
@@ -78,7 +76,6 @@ void Domain::cut_families() {
     shares_.back().end = here + 1;
   }
   elements_.reserve_beyond("load", halo - size());
-  touch();
 }
 
 void Domain::gather() {

@@ -50,9 +50,6 @@ class Domain {
   void clear_loads();
   /// Sets the halo rows to zero: for what adds to forces that have been gathered already, and gathers again.
   void clear_halo();
-  /// Changes whenever rows may have moved, so that views must be fetched anew.
-  std::int64_t generation() const { return generation_; }
-  void touch() { ++generation_; }
 
  private:
   Table elements_{Table::Layout::rows};
@@ -65,7 +62,6 @@ class Domain {
   };
   std::vector<Share> shares_;
   std::vector<Index> share_rows_;
-  std::int64_t generation_ = 0;
 };
 
 }  // namespace beadwork

@@ -211,7 +211,6 @@ void load_checkpoint(const std::filesystem::path& file, Domain& domain) {
     const auto families = load_families(place, domain);
     load_sets(place, domain);
     domain.breaks() = load_breaks(place, families);
-    domain.touch();
   });
 }
 
