@@ -99,14 +99,14 @@ int plan(const PlanArguments& arguments) {
 // The time at which what is driven has gone that far: it never turns back before, so bisection finds it.
 std::optional<Real> time_of_displacement(const std::vector<Constraint>& constraints, Real wanted, Real time_step) {
   Real late = time_step;
-  while (driven_displacement(constraints, "", late) < wanted) {
+  while (driven_displacement(constraints, "", 0, late) < wanted) {
     late *= 2;
     if (late > 1e12 * time_step) return std::nullopt;
   }
   Real early = 0;
   for (int halving = 0; halving < 100; ++halving) {
     const Real middle = 0.5 * (early + late);
-    (driven_displacement(constraints, "", middle) < wanted ? early : late) = middle;
+    (driven_displacement(constraints, "", 0, middle) < wanted ? early : late) = middle;
   }
   return late;
 }

@@ -118,8 +118,8 @@ void add_run(CLI::App& app, Chosen& chosen) {
   auto arguments = std::make_shared<RunArguments>();
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the results")->required();
-  verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
-  verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder");
+  CLI::Option* overwrite = verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
+  verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();

@@ -44,7 +44,23 @@ std::uintmax_t length_up_to(std::ifstream& in, std::uintmax_t first_row, std::in
   return length;
 }
 
+// The first line of a curve, whose rows after `step` are gone.
+std::string cut(const std::filesystem::path& file, std::int64_t step) {
+  std::ifstream in(file, std::ios::binary);
+  std::string head;
+  if (!std::getline(in, head)) throw file_failure("read", file, EIO);
+  std::error_code error;
+  std::filesystem::resize_file(file, length_up_to(in, head.size() + 1, step), error);
+  if (error) throw file_failure("cut", file, error.value());
+  return head;
+}
+
 }  // namespace
+
+void cut_curves(const std::filesystem::path& folder, std::int64_t step) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".csv") cut(entry.path(), step);
+}
 
 Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   write_atomically(file, first_line(columns) + "\n");
@@ -56,15 +72,11 @@ Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveCol
 Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns, std::int64_t step) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return fresh(file, columns);
-  std::ifstream in(file, std::ios::binary);
-  std::string head;
-  if (!std::getline(in, head)) throw file_failure("read", file, EIO);
+  const std::string head = cut(file, step);
   if (head != first_line(columns))
     throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
                                   "wrote it",
                                   file.string(), head, first_line(columns)));
-  std::filesystem::resize_file(file, length_up_to(in, head.size() + 1, step), error);
-  if (error) throw file_failure("cut", file, error.value());
   Curve curve(file, columns.size());
   curve.open();
   return curve;

@@ -48,4 +48,7 @@ class Curve {
   std::string row_;
 };
 
+/// Drops the rows after `step` of all curves in a folder, and last rows that a kill has torn.
+void cut_curves(const std::filesystem::path& folder, std::int64_t step);
+
 }  // namespace beadwork

@@ -18,8 +18,7 @@ using std::error_code;
 
 // The checkpoint goes first and the summary last: a removal that is cut short leaves a folder that still counts as a
 // run, but never one that could be resumed with half of its files.
-const std::vector<std::string> files_of_a_run = {"checkpoint.h5", "run.h5",      "run.xmf",
-                                                 "run.log",       "resolved.xml", "summary.json"};
+const std::vector<std::string> files_of_a_run = {"checkpoint.h5", "run.h5", "run.xmf", "run.log", "resolved.xml", "summary.json", "report.html"};
 
 bool is_part(const Path& file) { return file.extension() == ".part"; }
 

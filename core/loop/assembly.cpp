@@ -216,8 +216,7 @@ void Assembly::check_stage(Stage& stage) {
 }
 
 void Assembly::check_watchers() {
-  for (const auto& plugin : scene_.plugins)
-    if (const auto* watcher = dynamic_cast<const Watcher*>(plugin.get())) watcher->check_stages(constraints_seen_by(*watcher), complaints_);
+  for (const Watcher* watcher : watchers()) watcher->check_stages(constraints_seen_by(*watcher), complaints_);
 }
 
 std::vector<Constraint> Assembly::constraints_seen_by(const Watcher& watcher) const {

@@ -33,7 +33,9 @@ class Assembly {
   // names (assembly_names.cpp)
   void check_names();
   void check_order_of_regions();
-  void check_curve_names(const Stage& stage);
+  void check_curve_names();
+  void check_name(const ParamBase& param, const std::string& name);
+  std::vector<const Watcher*> watchers() const;
   void check_uses_of(Role role, const std::string& what, const std::set<std::string>& known);
   std::set<std::string> made_names(Role role, const std::string& what);
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/text.hpp"
 #include "core/loop/assembly.hpp"
 
@@ -13,6 +15,7 @@ std::set<std::string> Assembly::made_names(Role role, const std::string& what) {
       if (p->info().role != role) continue;
       for (const std::string& name : p->names()) {
         names.insert(name);
+        check_name(*p, name);
         // Filling plugins that work on one set in turn all name it; a family has one law, a region its own set.
         const auto* filler = dynamic_cast<const Filler*>(plugin.get());
         const auto [there, fresh] = made.try_emplace(name, p->at());
@@ -52,25 +55,42 @@ void Assembly::check_order_of_regions() {
   }
 }
 
-// Two watchers of one name would write over each other's curve.
-void Assembly::check_curve_names(const Stage& stage) {
+// Two watchers of one name would write over each other's curve, in whatever stages they stand.
+void Assembly::check_curve_names() {
   std::map<std::string, const Watcher*> taken;
-  for (const Watcher* watcher : stage.watchers) {
+  for (const Watcher* watcher : watchers()) {
     const ParamBase* name = watcher->param("name");
     if (!name || !name->given()) continue;
+    check_name(*name, name->text());
     const auto [there, fresh] = taken.try_emplace(name->text(), watcher);
-    if (!fresh && there->second != watcher)
+    if (!fresh)
       complaints_.error(name->in_deck() ? name->at() : watcher->at(),
                         fmt::format("a curve '{}' exists already, made at {}: give this one another 'name'", name->text(),
                                     there->second->at().where()));
   }
 }
 
+std::vector<const Watcher*> Assembly::watchers() const {
+  std::vector<const Watcher*> all;
+  for (const auto& plugin : scene_.plugins)
+    if (const auto* watcher = dynamic_cast<const Watcher*>(plugin.get())) all.push_back(watcher);
+  return all;
+}
+
+// Names of sets and families stand in lists, and all of them in files and their names.
+void Assembly::check_name(const ParamBase& param, const std::string& name) {
+  constexpr std::size_t longest = 100;
+  const auto plain = [](unsigned char c) { return c > ' ' && c != 127 && c != '/' && c != '\\' && c != '"'; };
+  if (name.size() <= longest && name.find_first_not_of('.') != std::string::npos && std::all_of(name.begin(), name.end(), plain)) return;
+  complaints_.error(param.at(), fmt::format("'{}' wants a name without blanks, slashes and quotes, of at most {} letters, got \"{}\"",
+                                            param.info().name, longest, name));
+}
+
 void Assembly::check_names() {
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));
   check_order_of_regions();
-  for (const Stage& stage : scene_.stages) check_curve_names(stage);
+  check_curve_names();
 }
 
 }  // namespace beadwork

@@ -22,8 +22,8 @@ Real largest(std::span<const Constraint> constraints, const std::string& set, co
 
 }  // namespace
 
-Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real time) {
-  return largest(constraints, set, [&](const Constraint& c) { return c.motion(time).displacement; });
+Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real from, Real to) {
+  return largest(constraints, set, [&](const Constraint& c) { return c.at(to).displacement - c.at(from).displacement; });
 }
 
 Real driven_force(std::span<const Constraint> constraints, const std::string& set) {
@@ -80,9 +80,10 @@ bool Mark::reached(const Moment& moment, std::span<const Constraint> constraints
     // Half a step of tolerance: the sum of many time steps ends a little beside a round number.
     case What::time: return time >= value - 0.5 * moment.time_step;
     case What::steps: return static_cast<Real>(moment.step - moment.stage_step) >= value;
-    case What::displacement:
-      return std::max(driven_displacement(constraints, "", time), driven_displacement(constraints, "", time + 0.5 * moment.time_step)) >=
-             value;
+    case What::displacement: {
+      const auto gone = [&](Real until) { return driven_displacement(constraints, "", moment.stage_start, until); };
+      return std::max(gone(moment.time), gone(moment.time + 0.5 * moment.time_step)) >= value;
+    }
   }
   return false;
 }

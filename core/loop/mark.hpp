@@ -13,9 +13,9 @@
 
 namespace beadwork {
 
-/// Displacement [m] and force [N] of what is driven on a set, largest in magnitude over its driven constraints; on no
-/// set: over all.
-Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real time);
+/// Displacement [m] between two times and force [N] of what is driven on a set, largest in magnitude over its driven
+/// constraints; on no set: over all.
+Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real from, Real to);
 Real driven_force(std::span<const Constraint> constraints, const std::string& set);
 
 struct Mark {

@@ -23,6 +23,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
 Run::~Run() = default;
 
 void Run::all() {
+  if (options_.resume) load();  // what is refused here leaves the folder as it was
   try {
     try {
       begin();
@@ -46,10 +47,7 @@ void Run::all() {
 
 void Run::begin() {
   pause();
-  if (options_.resume)
-    load();
-  else
-    fill();
+  if (!options_.resume) fill();
   open_record();
 }
 
@@ -99,6 +97,7 @@ void Run::enter(Stage& stage, bool resumed) {
     for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });
     check_constraints(stage, constraints());
   }
+  begin_constraints();
   for (auto& [law, table] : laws_) live_[table] = table->live();
   blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
   if (!resumed) count_brought();
@@ -114,7 +113,8 @@ bool Run::over() {
   if (options_.interrupt && *options_.interrupt)
     throw Interrupted(fmt::format("interrupted at step {}; go on with: beadwork run {} --out {} --resume", moment_.step,
                                   scene_.deck_path, folder_.root().string()));
-  return stage().until->reached(moment_, constraints(), until_maxima_[stage_number()]);
+  raise(peaks_[stage_number()], moment_, constraints());
+  return stage().until->reached(moment_, constraints(), peaks_[stage_number()]);
 }
 
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.

@@ -82,6 +82,7 @@ class Run final : private Workings, private Sight {
   void add_state_columns();
   void create_families(Stage& stage);
   void gather_constraints();
+  void begin_constraints();
   void check_constraints(const Stage& stage, std::span<const Constraint> constraints) const;
 
   // what is saved (run_record.cpp)
@@ -134,7 +135,7 @@ class Run final : private Workings, private Sight {
   RunFigures figures_;
   Moment moment_;
   std::vector<std::vector<Constraint>> constraints_;  ///< by stage
-  std::vector<std::vector<Real>> until_maxima_;       ///< by stage
+  std::vector<std::vector<Peak>> peaks_;              ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
   std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
   std::set<const Derived*> derived_now_;                ///< fields that stand for the present state

@@ -32,6 +32,7 @@ RunMeta Run::meta() const {
 void Run::open_record() {
   write_atomically(folder_.resolved(), scene_.resolved);
   const Recorder::Options options;
+  if (options_.resume) cut_curves(folder_.curves(), moment_.step);
   recorder_ = options_.resume ? Recorder::resume(folder_, meta(), options, domain(), moment_.step)
                               : Recorder::fresh(folder_, meta(), options, domain());
   write_summary();
@@ -43,10 +44,13 @@ namespace {
 
 // Both directions by one list, so that nothing is saved and not restored: f(name, number).
 template <class F>
-void each_state(std::vector<std::vector<Real>>& maxima, std::vector<std::vector<std::vector<Real>>>& looked,
+void each_state(std::vector<std::vector<Peak>>& peaks, std::vector<std::vector<std::vector<Real>>>& looked,
                 std::vector<std::vector<Constraint>>& constraints, const F& f) {
-  for (std::size_t s = 0; s < maxima.size(); ++s) {
-    for (std::size_t k = 0; k < maxima[s].size(); ++k) f(fmt::format("until.{}.{}", s, k), maxima[s][k]);
+  for (std::size_t s = 0; s < peaks.size(); ++s) {
+    for (Peak& peak : peaks[s]) {
+      f(fmt::format("peak-force.{}.{}", s, peak.set), peak.force);
+      f(fmt::format("peak-displacement.{}.{}", s, peak.set), peak.displacement);
+    }
     for (std::size_t w = 0; w < looked[s].size(); ++w)
       for (std::size_t k = 0; k < looked[s][w].size(); ++k) f(fmt::format("looked.{}.{}.{}", s, w, k), looked[s][w][k]);
     for (std::size_t k = 0; k < constraints[s].size(); ++k) {
@@ -68,7 +72,7 @@ void Run::store_state() {
   state("initial-energy") = initial_energy_;
   state("looks-owed") = static_cast<Real>(owed_);
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
-  each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
+  each_state(peaks_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
 }
 
 void Run::restore_state() {
@@ -81,7 +85,7 @@ void Run::restore_state() {
   initial_energy_ = state("initial-energy");
   owed_ = static_cast<std::size_t>(state("looks-owed"));
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
-  each_state(until_maxima_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
+  each_state(peaks_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
 }
 
 void Run::save() {
@@ -152,7 +156,7 @@ void Run::show_progress() {
   Real done = 0;
   if (until.time() && *until.time() > 0) done = std::max(done, time / *until.time());
   if (until.steps() && *until.steps() > 0) done = std::max(done, static_cast<Real>(moment_.step - moment_.stage_step) / static_cast<Real>(*until.steps()));
-  if (until.displacement() && *until.displacement() > 0) done = std::max(done, driven_displacement(constraints(), "", time) / *until.displacement());
+  if (until.displacement() && *until.displacement() > 0) done = std::max(done, driven_displacement(constraints(), "", moment_.stage_start, moment_.time) / *until.displacement());
   options_.progress(std::min<Real>(done, 1), fmt::format("stage '{}', step {}, time {:.4g} s, {} breaks", stage().name, moment_.step,
                                                          moment_.time, domain().breaks().breaks.size()));
 }
@@ -218,14 +222,14 @@ void Run::close(const std::string& status, const std::string& reason) {
 }
 
 CurveSink& Run::curve(const CurvePlan& plan) {
-  auto& open = curves_[plan.name];
-  if (open) return *open;
+  const auto there = curves_.find(plan.name);
+  if (there != curves_.end()) return *there->second;
   std::vector<CurveColumn> columns{{"time", "s"}};
   for (const auto& [name, unit] : plan.columns) columns.push_back({name, unit});
   const auto file = folder_.curve(plan.name);
-  open = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns, resumed_at_) : Curve::fresh(file, columns), moment_);
-  open->curve.write_sidecar(curve_json(plan));
-  return *open;
+  auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns, resumed_at_) : Curve::fresh(file, columns), moment_);
+  made->curve.write_sidecar(curve_json(plan));
+  return *(curves_[plan.name] = std::move(made));
 }
 
 void Run::frame(const FramePlan& plan) {

@@ -60,11 +60,12 @@ void Run::add_state_columns() {
   keep("initial-energy", "J", "Energy that was there without any work");
   keep("looks-owed", "1", "Watchers that have not had their turn at this step");
   for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds, or of all once they act no longer");
-  until_maxima_.resize(scene_.stages.size());
   looked_.resize(scene_.stages.size());
   for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
-    until_maxima_[s].assign(scene_.stages[s].until->memory(), 0);
-    for (std::size_t k = 0; k < until_maxima_[s].size(); ++k) keep(fmt::format("until.{}.{}", s, k), "1", "Largest value so far");
+    for (const Peak& peak : peaks_.emplace_back(peaks_of(constraints_[s]))) {
+      keep(fmt::format("peak-force.{}.{}", s, peak.set), "N", "Largest force so far on a driven set");
+      keep(fmt::format("peak-displacement.{}.{}", s, peak.set), "m", "Largest displacement so far of a driven set");
+    }
     for (const auto& marks : scene_.stages[s].marks) looked_[s].emplace_back(marks.size(), 0);
     for (std::size_t w = 0; w < looked_[s].size(); ++w)
       for (std::size_t k = 0; k < looked_[s][w].size(); ++k) keep(fmt::format("looked.{}.{}.{}", s, w, k), "1", "1 once the moment had its look");
@@ -88,6 +89,15 @@ void Run::create_families(Stage& stage) {
 
 void Run::gather_constraints() {
   for (const Stage& stage : scene_.stages) constraints_.push_back(stage.constraints());
+}
+
+// A load that stands outside of the stages goes on from one to the next.
+void Run::begin_constraints() {
+  const auto& first = scene_.stages.front().loads;
+  for (Constraint& c : constraints()) {
+    const bool stood = stage_number() > 0 && std::any_of(first.begin(), first.end(), [&](const Load* load) { return load->id() == c.by; });
+    c.began = stood ? 0 : moment_.stage_start;
+  }
 }
 
 // One degree of freedom of an element has one master.

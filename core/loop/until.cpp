@@ -79,35 +79,50 @@ std::optional<Until::Clause> Until::watched(const std::vector<std::string>& word
   return std::nullopt;
 }
 
-std::size_t Until::memory() const { return clauses_.size(); }
+std::vector<Peak> peaks_of(std::span<const Constraint> constraints) {
+  std::vector<Peak> peaks;
+  for (const Constraint& c : constraints)
+    if (c.driven && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; })) peaks.push_back({c.set, 0, 0});
+  return peaks;
+}
 
-bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, Real& maximum) {
+void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Constraint> constraints) {
+  for (Peak& peak : peaks) {
+    peak.force = std::max(peak.force, driven_force(constraints, peak.set));
+    peak.displacement = std::max(peak.displacement, driven_displacement(constraints, peak.set, moment.stage_start, moment.time));
+  }
+}
+
+bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) {
   const Real time = moment.time - moment.stage_start;
   const auto steps = static_cast<Real>(moment.step - moment.stage_step);
   switch (clause.what) {
     case What::mark: return clause.mark.reached(moment, constraints);
     case What::watched: {
+      const auto peak = std::find_if(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == clause.set; });
+      if (peak == peaks.end()) return false;
+      const Real largest = clause.watches_force ? peak->force : peak->displacement;
+      const Real limit = clause.of_maximum ? clause.value * largest : clause.value;
+      if (clause.comparison[0] == '<' && !(largest > limit)) return false;
       const Real value = clause.watches_force ? driven_force(constraints, clause.set)
-                                              : driven_displacement(constraints, clause.set, time);
-      maximum = std::max(maximum, value);
-      return compare(value, clause.comparison, clause.of_maximum ? clause.value * maximum : clause.value);
+                                              : driven_displacement(constraints, clause.set, moment.stage_start, moment.time);
+      return compare(value, clause.comparison, limit);
     }
     case What::condition: {
-      const Real values[] = {time, steps, driven_displacement(constraints, "", time)};
+      const Real values[] = {time, steps, driven_displacement(constraints, "", moment.stage_start, moment.time)};
       return clause.condition->evaluate(values) == 1;
     }
   }
   return false;
 }
 
-bool Until::reached(const Moment& moment, std::span<const Constraint> constraints, std::span<Real> maxima) const {
-  bool any = false;
-  for (std::size_t c = 0; c < clauses_.size(); ++c)
-    if (holds(clauses_[c], moment, constraints, maxima[c]) && !any) {
-      any = true;
-      met_ = clauses_[c].text;
-    }
-  return any;
+bool Until::reached(const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) const {
+  for (const Clause& clause : clauses_) {
+    if (!holds(clause, moment, constraints, peaks)) continue;
+    met_ = clause.text;
+    return true;
+  }
+  return false;
 }
 
 std::optional<Real> Until::first(Mark::What what) const {

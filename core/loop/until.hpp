@@ -10,11 +10,21 @@
 
 namespace beadwork {
 
+/// The largest that a stage has seen of a driven set.
+struct Peak {
+  std::string set;
+  Real force = 0;         ///< [N]
+  Real displacement = 0;  ///< since the stage began [m]
+};
+std::vector<Peak> peaks_of(std::span<const Constraint> constraints);
+void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Constraint> constraints);
+
 /// Conditions joined by "or", each one of
 ///   1 ms            a time since the stage began
 ///   5000            a number of steps
 ///   0.8 mm          a displacement of what is pulled
-///   force of right < 2 percent of its maximum      (also: displacement, > >= <=, or a value: < 3 N)
+///   force of right < 2 percent of its maximum      (also: displacement, > >= <=, or a value: < 3 N); what is to fall
+///                   below a value must have been above it
 ///   time > 1 ms and displacement > 0.1 mm          a condition on time, step and displacement
 class Until {
  public:
@@ -23,10 +33,8 @@ class Until {
   const std::string& text() const { return text_; }
   /// Sets that the conditions name, with their places.
   const std::vector<std::string>& sets() const { return sets_; }
-  /// How many numbers the conditions remember (largest values so far); they live in a scene column.
-  std::size_t memory() const;
-  /// True if the stage is over; `maxima` has memory() numbers.
-  bool reached(const Moment& moment, std::span<const Constraint> constraints, std::span<Real> maxima) const;
+  /// True if the stage is over.
+  bool reached(const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) const;
   /// The condition that was met last, in words.
   std::string met() const { return met_; }
   /// Time [s] and number of steps after which the stage ends for certain, where that can be told beforehand.
@@ -51,7 +59,7 @@ class Until {
   static std::optional<Clause> watched(const std::vector<std::string>& words, const std::string& text, const Location& at,
                                        const Scope& scope, Complaints& complaints);
   std::optional<Real> first(Mark::What what) const;
-  static bool holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, Real& maximum);
+  static bool holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks);
 
   std::string text_;
   std::vector<Clause> clauses_;

@@ -116,9 +116,12 @@ struct Constraint {
   int axis = 0;  ///< 0 x, 1 y, 2 z; 3 4 5 the turns about them, which can be held only
   Grip grip = Grip::each;
   bool driven = false;                           ///< it moves (pull), as against holding still
-  std::function<PrescribedMotion(Real)> motion;  ///< displacement since then, velocity, acceleration, of the time since the start of the stage
+  std::function<PrescribedMotion(Real)> motion;  ///< displacement, velocity, acceleration by the time since it began
+  Real began = 0;                                ///< start of the first stage in which the load stands [s]
   Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
   Real work = 0;                                 ///< of these forces so far [J]
+
+  PrescribedMotion at(Real time) const { return motion(time - began); }
 };
 
 class Load : public Plugin {

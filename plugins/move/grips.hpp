@@ -63,7 +63,7 @@ class Grips {
       const Gripped& of = c.axis < 3 ? places : turns;
       if (!of.rate) continue;
       const Real before = kinetic(sets_[k], of, c.axis % 3);
-      set_rate(c, sets_[k], c.motion(w.moment().time - w.moment().stage_start).velocity, of);
+      set_rate(c, sets_[k], c.at(w.moment().time).velocity, of);
       c.work += (kinetic(sets_[k], of, c.axis % 3) - before) / beta;
     }
   }
@@ -99,7 +99,7 @@ class Grips {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       Constraint& c = w.constraints()[k];
       if (c.axis >= 3) continue;
-      const Real moved = travel(c, now, now.time + now.time_step) - travel(c, now, now.time);
+      const Real moved = c.at(now.time + now.time_step).displacement - c.at(now.time).displacement;
       c.work += 0.5 * c.reaction * moved;
       if (c.grip == Grip::each) {
         for (std::size_t n = 0; n < sets_[k].size(); ++n) position.at(sets_[k][n], c.axis) = places_[k][n] + moved;
@@ -120,7 +120,7 @@ class Grips {
       if (!of.load) continue;
       const Set& set = sets_[k];
       const int axis = c.axis % 3;
-      const Real a = c.motion(now.time - now.stage_start).acceleration / beta;
+      const Real a = c.at(now.time).acceleration / beta;
       Real sum = 0;
       if (c.grip == Grip::each) {
         for (const Index row : set) {
@@ -136,7 +136,7 @@ class Grips {
       }
       c.reaction = sum;
       if (now.step == now.stage_step) continue;
-      c.work += 0.5 * sum * (travel(c, now, now.time) - travel(c, now, now.time - now.time_step));
+      c.work += 0.5 * sum * (c.at(now.time).displacement - c.at(now.time - now.time_step).displacement);
     }
   }
 
@@ -145,13 +145,11 @@ class Grips {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
       const Gripped& of = c.axis < 3 ? places : turns;
-      if (of.rate) set_rate(c, sets_[k], c.motion(now.time - now.stage_start).velocity, of);
+      if (of.rate) set_rate(c, sets_[k], c.at(now.time).velocity, of);
     }
   }
 
  private:
-  static Real travel(const Constraint& c, const Moment& now, Real time) { return c.motion(time - now.stage_start).displacement; }
-
   static void set_rate(const Constraint& c, const Set& set, Real v, const Gripped& of) {
     const int axis = c.axis % 3;
     if (c.grip == Grip::each) {

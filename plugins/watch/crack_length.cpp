@@ -87,9 +87,8 @@ class CrackLength final : public Watcher {
  private:
   Real driven(const Sight& sight) const {
     if (!against.given()) return 0;
-    const Moment& now = sight.moment();
     for (const Constraint& c : sight.constraints())
-      if (c.driven && c.set == *against) return std::abs(c.motion(now.time - now.stage_start).displacement);
+      if (c.driven && c.set == *against) return std::abs(c.at(sight.moment().time).displacement);
     return 0;
   }
 };

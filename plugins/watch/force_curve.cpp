@@ -40,13 +40,12 @@ class ForceCurve final : public Watcher {
 
   void look(Sight& sight) override {
     const int direction = (*axis)[0] - 'x';
-    const Moment& now = sight.moment();
     Real force = 0;
     Real displacement = 0;
     for (const Constraint& c : sight.constraints()) {
       if (c.axis != direction || c.set != *of) continue;
       force += c.reaction;
-      displacement += c.motion(now.time - now.stage_start).displacement;
+      displacement += c.at(sight.moment().time).displacement;
     }
     CurvePlan plan{.name = *name,
                    .columns = {{"displacement", "m"}, {"force", "N"}},
