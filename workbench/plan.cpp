@@ -119,12 +119,8 @@ std::optional<Real> steps_of(const Stage& stage, Real time_step) {
   if (stage.until->steps()) note(static_cast<Real>(*stage.until->steps()));
   if (!(time_step > 0)) return fewest;
   if (stage.until->time()) note(std::ceil(*stage.until->time() / time_step));
-  if (stage.until->displacement()) {
-    std::vector<Constraint> constraints;
-    for (const Load* load : stage.loads)
-      for (Constraint& c : load->constraints()) constraints.push_back(std::move(c));
-    if (const auto time = time_of_displacement(constraints, *stage.until->displacement(), time_step)) note(std::ceil(*time / time_step));
-  }
+  if (stage.until->displacement())
+    if (const auto time = time_of_displacement(stage.constraints(), *stage.until->displacement(), time_step)) note(std::ceil(*time / time_step));
   return fewest;
 }
 

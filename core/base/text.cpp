@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <span>
 
 namespace beadwork {
 
@@ -36,6 +39,18 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::size_t allowed_edits(std::size_t length) {
   return length < 2 ? 0 : length <= 4 ? 1 : length <= 8 ? 2 : 3;
+}
+
+// Length of the longest common subsequence of a from i on and b from j on, at i * (b.size() + 1) + j.
+std::vector<std::uint32_t> common_lines(std::span<const std::string> a, std::span<const std::string> b) {
+  const std::size_t width = b.size() + 1;
+  std::vector<std::uint32_t> common((a.size() + 1) * width, 0);
+  for (std::size_t i = a.size(); i-- > 0;)
+    for (std::size_t j = b.size(); j-- > 0;) {
+      const std::size_t here = i * width + j;
+      common[here] = a[i] == b[j] ? common[here + width + 1] + 1 : std::max(common[here + width], common[here + 1]);
+    }
+  return common;
 }
 
 }  // namespace
@@ -154,6 +169,34 @@ std::string xml_escaped(std::string_view text) {
       result += c;
   }
   return result;
+}
+
+std::vector<OddLine> odd_lines(const std::vector<std::string>& first, const std::vector<std::string>& second) {
+  const auto [head1, head2] = std::mismatch(first.begin(), first.end(), second.begin(), second.end());
+  const auto [tail1, tail2] = std::mismatch(first.rbegin(), std::reverse_iterator(head1), second.rbegin(), std::reverse_iterator(head2));
+  const std::span a(head1, tail1.base()), b(head2, tail2.base());
+  const auto head = static_cast<std::size_t>(head1 - first.begin());
+  std::vector<OddLine> odd;
+  std::size_t i = 0, j = 0;
+  const auto of_first = [&] { odd.push_back({false, head + i++}); };
+  const auto of_second = [&] { odd.push_back({true, head + j++}); };
+  const std::size_t width = b.size() + 1;
+  constexpr std::size_t most = 10'000'000;  // what differs in more lines than this allows is another text altogether
+  if (const std::size_t cells = (a.size() + 1) * width; cells <= most) {
+    const auto common = common_lines(a, b);
+    while (i < a.size() && j < b.size()) {
+      const std::size_t here = i * width + j;
+      if (a[i] == b[j])
+        ++i, ++j;
+      else if (common[here + width] >= common[here + 1])
+        of_first();
+      else
+        of_second();
+    }
+  }
+  while (i < a.size()) of_first();
+  while (j < b.size()) of_second();
+  return odd;
 }
 
 }  // namespace beadwork

@@ -1,6 +1,7 @@
 #pragma once
 // Small helpers on text: numbers without a locale, words, and the suggestion after a misspelt name.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,5 +30,13 @@ std::string join(const std::vector<std::string>& words, std::string_view separat
 std::string kebab_from_snake(std::string_view name);  ///< free_filling -> free-filling
 std::string snake_from_kebab(std::string_view name);
 std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes
+
+/// A line that stands in one of two texts only.
+struct OddLine {
+  bool in_second;
+  std::size_t number;  ///< in its text, from 0
+};
+/// The fewest lines by which two texts differ (what is left of a longest common subsequence), in their order.
+std::vector<OddLine> odd_lines(const std::vector<std::string>& first, const std::vector<std::string>& second);
 
 }  // namespace beadwork

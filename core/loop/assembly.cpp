@@ -39,6 +39,15 @@ std::unique_ptr<Scene> Scene::assemble(const Deck& deck, const Catalogue& catalo
   return scene;
 }
 
+std::vector<Constraint> Stage::constraints() const {
+  std::vector<Constraint> all;
+  for (const Load* load : loads)
+    for (Constraint& c : load->constraints()) all.push_back(std::move(c));
+  return all;
+}
+
+bool Stage::watched_by(const Watcher& watcher) const { return std::find(watchers.begin(), watchers.end(), &watcher) != watchers.end(); }
+
 std::size_t Scene::first_stage(const BondLaw& law) const {
   for (std::size_t s = 0; s < stages.size(); ++s)
     for (const BondLaw* there : stages[s].laws)
@@ -66,8 +75,10 @@ void Assembly::run() {
     if (!pulled) complaints_.error(watcher->moments.at(), "'at' waits for a displacement, but nothing in <load> is pulled");
   if (std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
-  if (complaints_.errors() == 0)  // else a law may be missing that is only misspelt
+  if (complaints_.errors() == 0) {  // else a law or a load may be missing that is only misspelt
     for (const Stage& stage : scene_.stages) stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_);
+    check_watchers();
+  }
   deck_.scope.complain_about_unused(complaints_);
   if (complaints_.errors() == 0) lay_out_fields();
 }
@@ -204,6 +215,18 @@ void Assembly::check_stage(Stage& stage) {
   compile_marks(stage);
 }
 
+void Assembly::check_watchers() {
+  for (const Watcher* watcher : watchers()) watcher->check_stages(constraints_seen_by(*watcher), complaints_);
+}
+
+std::vector<Constraint> Assembly::constraints_seen_by(const Watcher& watcher) const {
+  std::vector<Constraint> seen;
+  for (const Stage& stage : scene_.stages)
+    if (stage.watched_by(watcher))
+      for (Constraint& c : stage.constraints()) seen.push_back(std::move(c));
+  return seen;
+}
+
 void Assembly::compile_until(Stage& stage) {
   std::string text;
   Location at = stage.at;
@@ -230,8 +253,7 @@ void Assembly::compile_until(Stage& stage) {
   if (!stage.until) return;
   for (const std::string& set : stage.until->sets()) {
     bool driven = false;
-    for (const Load* load : stage.loads)
-      for (const Constraint& c : load->constraints()) driven |= c.driven && c.set == set;
+    for (const Constraint& c : stage.constraints()) driven |= c.driven && c.set == set;
     if (!driven) complaints_.error(at, fmt::format("'until' watches set '{}', which nothing in <load> drives", set));
   }
 }
@@ -244,8 +266,7 @@ void Assembly::compile_marks(Stage& stage) {
     marks = Mark::list(*watcher->moments, "at", watcher->moments.at(), deck_.scope, complaints_);
     if (std::none_of(marks.begin(), marks.end(), [](const Mark& m) { return m.what == Mark::What::displacement; })) continue;
     bool& pulled = waits_for_pull_[watcher];
-    for (const Load* load : stage.loads)
-      for (const Constraint& c : load->constraints()) pulled |= c.driven;
+    for (const Constraint& c : stage.constraints()) pulled |= c.driven;
   }
 }
 

@@ -25,6 +25,8 @@ class Assembly {
   PlainNode resolved(const Plugin& plugin) const;
   void merge_common_into_stages();
   void check_stage(Stage& stage);
+  void check_watchers();
+  std::vector<Constraint> constraints_seen_by(const Watcher& watcher) const;
   void compile_until(Stage& stage);
   void compile_marks(Stage& stage);
 

@@ -46,7 +46,7 @@ std::optional<Mark> Mark::of(const Expression& quantity, const std::string& attr
       complaints.error(at, fmt::format("'{}' wants a whole number of steps, or a time or displacement with its unit, got \"{}\"", attribute, text));
       return std::nullopt;
     }
-    if (value >= 0) return Mark{static_cast<What>(v), value};
+    if (value >= 0) return Mark{static_cast<What>(v), value, text, at};
     complaints.error(at, fmt::format("'{}' must be >= 0, got \"{}\"", attribute, text));
     return std::nullopt;
   }

@@ -22,6 +22,8 @@ struct Mark {
   enum class What { time, steps, displacement };
   What what = What::time;
   Real value = 0;
+  std::string text;  ///< as the deck gives it
+  Location at;
 
   /// What time, step and displacement are called in conditions, in the order of What.
   static const std::vector<Variable>& variables();

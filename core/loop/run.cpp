@@ -66,6 +66,7 @@ void Run::go_through_stages() {
       save_now_and_then();
     }
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
+    tell_of_missed_moments();
     save();  // the next stage may fail at its start
   }
 }
@@ -229,6 +230,28 @@ bool Run::due(std::size_t watcher) const {
   const auto& marks = now.marks[watcher];
   for (std::size_t k = 0; k < marks.size(); ++k)
     if (looked_[stage_number()][watcher][k] == 0 && marks[k].reached(moment_, constraints())) return true;
+  return false;
+}
+
+// Moments of 'at' that never came, told at the end of the last stage in which their watcher stands.
+void Run::tell_of_missed_moments() const {
+  const auto later = scene_.stages.begin() + moment_.stage + 1;
+  const Stage& now = scene_.stages[stage_number()];
+  for (std::size_t w = 0; w < now.watchers.size(); ++w) {
+    const Watcher& watcher = *now.watchers[w];
+    if (std::any_of(later, scene_.stages.end(), [&](const Stage& stage) { return stage.watched_by(watcher); })) continue;
+    for (std::size_t k = 0; k < now.marks[w].size(); ++k)
+      if (!came(watcher, k)) options_.warn(fmt::format("{}: 'at' waits in vain for {}: {} first", now.marks[w][k].at.where(), now.marks[w][k].text, figures_.exit_reason));
+  }
+}
+
+// Whether a moment of its 'at' has come in this stage or in one before.
+bool Run::came(const Watcher& watcher, std::size_t mark) const {
+  for (std::size_t s = 0; s <= stage_number(); ++s) {
+    const auto& watchers = scene_.stages[s].watchers;
+    const auto w = static_cast<std::size_t>(std::find(watchers.begin(), watchers.end(), &watcher) - watchers.begin());
+    if (w < watchers.size() && looked_[s][w][mark] == 1) return true;
+  }
   return false;
 }
 

@@ -69,6 +69,8 @@ class Run final : private Workings, private Sight {
   void log_events();
   void look(std::size_t first = 0);
   bool due(std::size_t watcher) const;
+  void tell_of_missed_moments() const;
+  bool came(const Watcher& watcher, std::size_t mark) const;
   void bind_all();
   void derive_for(const Plugin& reader);
   Real wall_seconds() const;

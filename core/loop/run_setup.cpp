@@ -88,11 +88,7 @@ void Run::create_families(Stage& stage) {
 }
 
 void Run::gather_constraints() {
-  for (const Stage& stage : scene_.stages) {
-    auto& all = constraints_.emplace_back();
-    for (const Load* load : stage.loads)
-      for (Constraint& c : load->constraints()) all.push_back(std::move(c));
-  }
+  for (const Stage& stage : scene_.stages) constraints_.push_back(stage.constraints());
 }
 
 // A load that stands outside of the stages goes on from one to the next.

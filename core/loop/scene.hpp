@@ -29,6 +29,9 @@ struct Stage {
   std::optional<Until> until;
 
   Mover& mover() const { return *movers.front(); }
+  /// Of all its loads, in the deck's order.
+  std::vector<Constraint> constraints() const;
+  bool watched_by(const Watcher& watcher) const;
 };
 
 class Scene {

@@ -90,17 +90,12 @@ void refuse_other_deck(const std::string& saved, const std::string& now) {
     for (const std::string& line : split(text, '\n')) kept.push_back(std::regex_replace(line, free, ""));
     return kept;
   };
-  const auto before = lines(saved);
-  const auto after = lines(now);
-  if (before == after) return;
+  const auto odd = odd_lines(lines(saved), lines(now));
+  if (odd.empty()) return;
   std::string differences;
-  const auto originals = std::pair(split(saved, '\n'), split(now, '\n'));
-  for (std::size_t k = 0; k < std::max(before.size(), after.size()); ++k) {
-    const bool in_both = k < before.size() && k < after.size();
-    if (in_both && before[k] == after[k]) continue;
-    if (k < before.size()) differences += "\n  checkpoint: " + std::string(trim(originals.first[k]));
-    if (k < after.size()) differences += "\n  deck:       " + std::string(trim(originals.second[k]));
-  }
+  const auto before = split(saved, '\n'), after = split(now, '\n');
+  for (const OddLine& line : odd)
+    differences += line.in_second ? "\n  deck:       " + std::string(trim(after[line.number])) : "\n  checkpoint: " + std::string(trim(before[line.number]));
   throw DeckFailure("error: the deck is not the one that began this run; only 'until', 'every' and threads may differ:" + differences);
 }
 

@@ -263,6 +263,8 @@ class Watcher : public Plugin {
   /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at', and brings up to date
   /// what the watcher reads.
   virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
+  /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
+  virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}
   virtual void look(Sight& sight) = 0;
 };
 

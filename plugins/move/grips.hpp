@@ -178,9 +178,6 @@ class Grips {
     for (const Index row : set) of.at(row, axis) += scale / mass[row];
   }
 
-  std::vector<Set> sets_;
-  std::vector<Real> means_;
-  std::vector<std::vector<Real>> places_;
   void note_bonds(const Domain& domain, const std::vector<const BondTable*>& tables, const std::vector<char>& averaged) {
     for (std::size_t f = 0; f < domain.families().size(); ++f) {
       const BondTable* table = domain.families()[f].get();
@@ -191,6 +188,9 @@ class Grips {
     }
   }
 
+  std::vector<Set> sets_;
+  std::vector<Real> means_;
+  std::vector<std::vector<Real>> places_;
   std::vector<unsigned char> held_, driven_;          // bit `axis`: prescribed there, of the element itself or of a mean; of itself
   std::set<std::pair<Index, Index>> bonds_of_means_;  // (family, id) of the bonds that hold members of a mean
 };

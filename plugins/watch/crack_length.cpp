@@ -1,6 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "core/base/text.hpp"
 #include "core/base/units.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/plugin/kinds.hpp"
@@ -33,6 +37,24 @@ class CrackLength final : public Watcher {
   Reads<Real> area{this, {"area", On::bonds, "m2", "Area that a contact stands for"}};
 
   std::string family() const override { return *of; }
+
+  void check(Complaints& complaints) const override {
+    const char* course = "the crack runs from 'from' over 'start' to 'end'";
+    if (*from > *start)
+      complaints.error(from.at(), fmt::format("'from' = {} must not lie beyond 'start' = {}: {}", from.text(), start.text(), course));
+    if (*end <= *start)
+      complaints.error(end.at(), fmt::format("'end' = {} must lie beyond 'start' = {}: {}", end.text(), start.text(), course));
+  }
+
+  void check_stages(std::span<const Constraint> constraints, Complaints& complaints) const override {
+    if (!against.given()) return;
+    std::set<std::string> driven;
+    for (const Constraint& c : constraints)
+      if (c.driven) driven.insert(c.set);
+    if (!driven.contains(*against))
+      complaints.error(against.at(), fmt::format("'against' names set '{}', which nothing in <load> drives while it looks{}", *against,
+                                                 did_you_mean(*against, {driven.begin(), driven.end()})));
+  }
 
   void look(Sight& sight) override {
     const BondTable& table = *sight.domain().find_family(*of);

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <set>
+
+#include "core/base/text.hpp"
 #include "core/base/units.hpp"
 #include "core/plugin/kinds.hpp"
 
@@ -19,6 +22,21 @@ class ForceCurve final : public Watcher {
                             .doc = "Force that theory predicts, as a formula in 'displacement'; drawn beside the curve",
                             .optional = true,
                             .variables = {{"displacement", find_unit("m")->dimension}}}};
+
+  void check_stages(std::span<const Constraint> constraints, Complaints& complaints) const override {
+    std::set<std::string> sets, axes;
+    for (const Constraint& c : constraints) {
+      if (c.axis > 2) continue;
+      sets.insert(c.set);
+      if (c.set == *of) axes.insert(std::string(1, "xyz"[c.axis]));
+    }
+    if (axes.empty())
+      complaints.error(of.at(), fmt::format("'of' watches set '{}', which nothing in <load> drives or holds while it looks{}", *of,
+                                            did_you_mean(*of, {sets.begin(), sets.end()})));
+    else if (!axes.contains(*axis))
+      complaints.error(axis.at(), fmt::format("'axis' is {}, but <load> drives or holds set '{}' only along {}", *axis, *of,
+                                              join({axes.begin(), axes.end()})));
+  }
 
   void look(Sight& sight) override {
     const int direction = (*axis)[0] - 'x';

@@ -59,6 +59,28 @@ TEST(Text, words_are_split_trimmed_joined_and_renamed) {
   EXPECT_EQ(snake_from_kebab("free-filling"), "free_filling");
 }
 
+std::string marked(const std::vector<std::string>& first, const std::vector<std::string>& second) {
+  std::string all;
+  for (const OddLine& line : odd_lines(first, second)) all += (line.in_second ? "+" + second[line.number] : "-" + first[line.number]);
+  return all;
+}
+
+TEST(Text, two_texts_differ_by_as_few_lines_as_can_be) {
+  EXPECT_EQ(marked({"a", "b", "c"}, {"a", "b", "c"}), "");
+  EXPECT_EQ(marked({"a", "b", "c"}, {"a", "x", "b", "c"}), "+x");
+  EXPECT_EQ(marked({"a", "b", "c"}, {"a", "c"}), "-b");
+  EXPECT_EQ(marked({"a", "b", "c"}, {"a", "x", "c"}), "-b+x");
+  EXPECT_EQ(marked({"a", "b", "c", "d", "e"}, {"b", "c", "x", "e", "f"}), "-a-d+x+f");
+  EXPECT_EQ(marked({}, {"a", "a"}), "+a+a");
+  EXPECT_EQ(marked({"a", "a", "a"}, {"a"}), "-a-a");
+}
+
+TEST(Text, texts_too_long_to_compare_differ_in_all_lines_between_their_common_ends) {
+  std::vector<std::string> first(20000, "a"), second(20000, "b");
+  for (auto* text : {&first, &second}) text->front() = text->back() = "same";
+  EXPECT_EQ(odd_lines(first, second).size(), 2 * 19998u);
+}
+
 // Derived: the test vectors of FIPS 180-2.
 TEST(Text, the_hash_is_sha_256) {
   EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
