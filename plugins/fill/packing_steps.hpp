@@ -7,7 +7,7 @@
 #include "core/base/failure.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/report.hpp"
-#include "plugins/fill/inertia.hpp"
+#include "plugins/fill/spheres.hpp"
 
 namespace beadwork {
 
@@ -45,11 +45,9 @@ void guarded(const Plugin& plugin, const Step& step) {
 }
 
 /// A step that goes on with a packing that an earlier one began.
-class PackingStep : public Filler {
+class PackingStep : public SphereFiller {
  public:
   Param<std::string> set{this, {.name = "set", .doc = "Set that free-filling began", .role = Role::set}};
-  Writes<Real> mass{this, field::mass};
-  Writes<Real> inertia{this, field::inertia};
 
   void fill(Domain& domain, const FillJob& job) final {
     const auto found = job.in_progress->find(*set);
@@ -81,18 +79,7 @@ class PackingStep : public Filler {
       domain.add_elements(count - there);
       for (Index row = progress.first_row + there; row < domain.size(); ++row) members.push_back(row);
     }
-    bind(domain);
-    const auto position = domain.elements().column("position").view<Vec3>();
-    const auto radius = domain.elements().column("radius").view<Real>();
-    for (Index k = 0; k < count; ++k) {
-      const Index row = progress.first_row + k;
-      const Real r = progress.packing.radius[static_cast<std::size_t>(k)];
-      position.set(row, progress.packing.position[static_cast<std::size_t>(k)]);
-      radius[row] = r;
-      const Real m = progress.density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
-      if (mass) mass[row] = m;
-      if (inertia) inertia[row] = 0.4 * m * r * r;
-    }
+    shape(domain, progress.first_row, progress.packing.position, progress.packing.radius, progress.density);
   }
 };
 

@@ -2,7 +2,7 @@
 
 #include "core/base/units.hpp"
 #include "core/io/packing_file.hpp"
-#include "plugins/fill/inertia.hpp"
+#include "plugins/fill/spheres.hpp"
 
 namespace beadwork {
 
