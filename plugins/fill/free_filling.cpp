@@ -41,7 +41,8 @@ class FreeFilling final : public ElementMaker {
       for (const std::string& warning : packing.warnings) job.warn(warning);
       const Index first = add_spheres(domain, packing.position, packing.radius);
       job.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
-      (*job.in_progress)[*set] = PackingInProgress{std::move(packing), *density, first};
+      const auto rows = static_cast<Index>(packing.position.size());
+      (*job.in_progress)[*set] = PackingInProgress{std::move(packing), *density, first, rows};
     });
   }
 

@@ -15,6 +15,7 @@ struct PackingInProgress {
   packing::Packing packing;
   Real density;
   Index first_row;  ///< its elements stand from here on
+  Index rows;       ///< so many: the set may hold others, made before
 };
 
 inline std::string packing_json(const std::string& set, const std::string& step, const packing::PackingReport& r) {
@@ -69,15 +70,13 @@ class PackingStep : public SphereFiller {
   virtual void go_on(packing::Packing& packing) = 0;
 
  private:
-  void place(Domain& domain, const PackingInProgress& progress) {
+  void place(Domain& domain, PackingInProgress& progress) {
     const auto count = static_cast<Index>(progress.packing.position.size());
-    Set& members = domain.sets()[*set];
-    const auto there = static_cast<Index>(members.size());
-    if (count > there) {
-      if (progress.first_row + there != domain.size())
+    if (count > progress.rows) {
+      if (progress.first_row + progress.rows != domain.size())
         refuse(at(), fmt::format("other elements were made since set '{}' was begun: finish one packing before the next", *set));
-      domain.add_elements(count - there);
-      for (Index row = progress.first_row + there; row < domain.size(); ++row) members.push_back(row);
+      add_rows(domain, *set, count - progress.rows);
+      progress.rows = count;
     }
     shape(domain, progress.first_row, progress.packing.position, progress.packing.radius, progress.density);
   }
