@@ -1,3 +1,5 @@
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "plugins/fill/packing_steps.hpp"
 
 namespace beadwork {
@@ -33,7 +35,7 @@ class FreeFilling final : public ElementMaker {
     if (count.given()) request.count = *count;
     if (mean_radius.given()) request.mean_radius = *mean_radius;
     request.dispersion = {*law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian, *spread, *deviation};
-    request.seed = job.seed;
+    request.seed = own_seed(job.seed);
     request.pause = job.pause;
     if (around.given()) note_obstacles(domain, request.around);
     guarded(*this, [&] {
@@ -47,6 +49,15 @@ class FreeFilling final : public ElementMaker {
   }
 
  private:
+  // Two packings of a deck are not to be twins. The first takes the deck's seed itself, the others draw theirs: numbers
+  // below 2^53, so that they can be read in summary.json and given to a deck of that packing alone.
+  std::uint64_t own_seed(std::uint64_t seed) const {
+    const auto number = parse_number(id().substr(id().rfind('.') + 1));  // "fill.free-filling.2"; the first has none
+    if (!number) return seed;
+    constexpr std::uint64_t stream = 1000;  // far from those of a packing
+    return Random(seed, stream + static_cast<std::uint64_t>(*number)).bits() >> 11;
+  }
+
   void note_obstacles(const Domain& domain, packing::Obstacles& obstacles) const {
     const auto position = domain.elements().column("position").view<Vec3>();
     const auto radius = domain.elements().column("radius").view<Real>();
