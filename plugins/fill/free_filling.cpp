@@ -17,13 +17,15 @@ class FreeFilling final : public ElementMaker {
   Param<Real> mean_radius{this, {.name = "mean-radius", .unit = "m", .range = positive, .doc = "Mean radius; the number of elements follows", .optional = true}};
   Param<std::string> law{this, {.name = "law", .doc = "How radii are distributed", .fallback = "uniform", .choices = {"uniform", "truncated-gaussian"}}};
   Param<Real> spread{this, {.name = "spread", .range = {0, 1, false, true}, .doc = "Radii lie within (1 - spread) and (1 + spread) of their mean", .fallback = "0.25"}};
-  Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut", .fallback = "0.125"}};
+  Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut; 0.125 where absent", .optional = true}};
   Param<std::vector<std::string>> around{this, {.name = "around", .doc = "Sets that are there already and do not move", .optional = true, .role = Role::set}};
 
   void check(Complaints& complaints) const override {
     exactly_one({&count, &mean_radius}, at(), complaints);
     exactly_one({&box, &cylinder_radius}, at(), complaints);
     if (cylinder_radius.in_deck() && !to.given()) complaints.error(cylinder_radius.at(), "a cylinder needs 'to', the centre of its other end");
+    if (to.in_deck() && !cylinder_radius.in_deck()) complaints.error(to.at(), "'to' belongs to a cylinder; a box reaches from 'from' as far as 'box' says");
+    if (deviation.in_deck() && *law == "uniform") complaints.error(deviation.at(), "'deviation' belongs to law=\"truncated-gaussian\"; a uniform law has its 'spread' only");
   }
 
   void fill(Domain& domain, const FillJob& job) override {
@@ -34,7 +36,9 @@ class FreeFilling final : public ElementMaker {
       request.region = packing::Cylinder{*from, *to, *cylinder_radius};
     if (count.given()) request.count = *count;
     if (mean_radius.given()) request.mean_radius = *mean_radius;
-    request.dispersion = {*law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian, *spread, *deviation};
+    request.dispersion.law = *law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian;
+    request.dispersion.spread = *spread;
+    if (deviation.given()) request.dispersion.deviation = *deviation;
     request.seed = own_seed(job.seed);
     request.pause = job.pause;
     if (around.given()) note_obstacles(domain, request.around);
