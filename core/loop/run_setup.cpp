@@ -26,6 +26,7 @@ void Run::fill() {
     pause();
     if (!filler->after_filling()) filler->fill(domain(), job);
   }
+  for (Filler* filler : scene_.fillers) filler->conclude(job);
   if (domain().size() == 0)
     throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene_.deck_path));
 

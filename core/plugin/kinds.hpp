@@ -42,6 +42,8 @@ class Filler : public Plugin {
  public:
   static constexpr Kind kind = Kind::fill;
   virtual void fill(Domain& domain, const FillJob& job) = 0;
+  /// Once all have made their elements: warns of what was begun and never finished.
+  virtual void conclude(const FillJob&) {}
   /// True for what looks at the finished packing (sets by region): it runs behind all others, in the deck's order.
   virtual bool after_filling() const { return false; }
 };

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "core/base/random.hpp"
 #include "core/base/text.hpp"
 #include "plugins/fill/packing_steps.hpp"
@@ -48,11 +50,22 @@ class FreeFilling final : public ElementMaker {
       const Index first = add_spheres(domain, packing.position, packing.radius);
       job.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
       const auto rows = static_cast<Index>(packing.position.size());
-      (*job.in_progress)[*set] = PackingInProgress{std::move(packing), *density, first, rows};
+      begun_ = std::make_shared<PackingInProgress>(PackingInProgress{std::move(packing), *density, first, rows});
+      (*job.in_progress)[*set] = begun_;
     });
   }
 
+  void conclude(const FillJob& job) override {
+    const auto begun = std::exchange(begun_, nullptr);  // the memory is needed for the run
+    const std::size_t placed = begun->packing.position.size(), waiting = begun->packing.waiting.size();
+    if (waiting > 0)
+      job.warn(fmt::format("{}: only {} of {} elements found a place without overlap; <forced-filling set=\"{}\"/> places the rest", at().where(),
+                           placed, placed + waiting, *set));
+  }
+
  private:
+  std::shared_ptr<PackingInProgress> begun_;  // which the later steps go on with
+
   // Two packings of a deck are not to be twins. The first takes the deck's seed itself, the others draw theirs: numbers
   // below 2^53, so that they can be read in summary.json and given to a deck of that packing alone.
   std::uint64_t own_seed(std::uint64_t seed) const {

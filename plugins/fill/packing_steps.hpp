@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+
 #include "core/base/failure.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/report.hpp"
@@ -54,7 +56,7 @@ class PackingStep : public SphereFiller {
     const auto found = job.in_progress->find(*set);
     if (found == job.in_progress->end())
       refuse(at(), fmt::format("set '{}' is no packing in progress: <free-filling> has to come first", *set));
-    auto& progress = std::any_cast<PackingInProgress&>(found->second);
+    auto& progress = *std::any_cast<const std::shared_ptr<PackingInProgress>&>(found->second);
     const std::size_t before = progress.packing.warnings.size();
     progress.packing.pause = job.pause;
     guarded(*this, [&] { go_on(progress.packing); });
