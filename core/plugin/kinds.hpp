@@ -129,6 +129,8 @@ struct Constraint {
 class Load : public Plugin {
  public:
   static constexpr Kind kind = Kind::load;
+  /// Before the first `start` of the stage: clears what the starts of several loads add up.
+  virtual void clear(Domain&) {}
   /// Once, at the start of its stage: initial velocities and the like.
   virtual void start(Domain&) {}
   virtual std::vector<Constraint> constraints() const { return {}; }
