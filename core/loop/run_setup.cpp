@@ -17,9 +17,7 @@ void Run::fill() {
   job.say = options_.say;
   job.warn = options_.warn;
   job.report = [&](const std::string& json) { figures_.packing_reports.push_back(json); };
-  job.resolve_path = [&](const std::string& path) {
-    return (std::filesystem::path(scene_.deck_path).parent_path() / path).string();
-  };
+  job.resolve_path = [&](const std::string& path) { return scene_.path_of(path); };
   job.in_progress = &in_progress;
   job.pause = [&] { pause(); };
   for (Filler* filler : scene_.fillers) {
