@@ -17,6 +17,9 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                          std::string_view open = "'", std::string_view close = "'");
 
+/// What some editors and tables put before a text in UTF-8; it is no part of the text.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// The whole text as a finite decimal number with a point; nothing for "0,3", "1 ", "nan", "inf", "0x1", "".
 std::optional<double> parse_number(std::string_view text);
 

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/base/readable.hpp"
+#include "core/base/text.hpp"
 #include "core/deck/places.hpp"
 
 namespace beadwork {
@@ -15,12 +17,9 @@ namespace {
 constexpr std::uintmax_t largest_file = 16u << 20;
 
 /// Why a file cannot be a deck before it is opened, or "".
-std::string why_unreadable(const std::string& path) {
+std::string why_no_deck(const std::string& path) {
+  if (std::string why = why_unreadable(path); !why.empty()) return why;
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return "there is no such file";
-  if (std::filesystem::is_directory(status)) return "it is a folder";
-  if (!std::filesystem::is_regular_file(status)) return "it is no ordinary file";
   const auto size = std::filesystem::file_size(path, error);
   if (error) return error.message();
   if (size > largest_file)
@@ -56,7 +55,7 @@ Location place_of_byte(const std::shared_ptr<const Source>& source, std::size_t 
 
 std::shared_ptr<const Source> read_source(const std::string& path, const Location& asked_at,
                                           Complaints& complaints) {
-  std::string why = why_unreadable(path), text;
+  std::string why = why_no_deck(path), text;
   if (why.empty()) {
     std::ifstream file(path, std::ios::binary);
     text.assign(std::istreambuf_iterator<char>(file), {});
@@ -66,7 +65,7 @@ std::shared_ptr<const Source> read_source(const std::string& path, const Locatio
     complaints.error(asked_at, "cannot read \"" + path + "\": " + why);
     return nullptr;
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // the mark that some editors put before UTF-8
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   const auto source = std::make_shared<const Source>(Source{path, std::move(text)});
   if (const std::size_t bad = first_bad_byte(source->text); bad != std::string_view::npos) {
     complaints.error(place_of_byte(source, bad), "this is no text in UTF-8");

@@ -14,10 +14,13 @@ struct StoredPacking {
   std::vector<Real> radius;
 };
 
-/// Reads the first frame of a run.h5, or a text of lines `x y z r` (blanks or commas between the numbers; a first line
-/// of names and lines that begin with # are passed over), each number times `scale`. MachineFailure if the file cannot
-/// be opened; DeckFailure with the line if it holds something else, a number that is not finite, or a radius <= 0.
-/// Throws DeckFailure also where there is no element.
+/// True of a run.h5, whose lengths say themselves in which unit they are.
+bool states_its_unit(const std::filesystem::path& file);
+
+/// Reads the first frame of a run.h5, or a text of lines `x y z r` (blanks or commas between the numbers), its numbers
+/// times `scale`. In a text, lines that begin with # are passed over, and the first other one if no word of it is a
+/// number: names of the columns. MachineFailure if the file cannot be opened; DeckFailure, with the line where there is
+/// one, if it holds something else, a number that is not finite, a radius <= 0, or no element.
 StoredPacking read_packing(const std::filesystem::path& file, Real scale);
 
 }  // namespace beadwork

@@ -61,6 +61,10 @@ const BondLaw* Scene::law_of(const std::string& family) const {
   return nullptr;
 }
 
+std::string Scene::path_of(const std::string& path) const {
+  return (std::filesystem::path(deck_path).parent_path() / path).lexically_normal().string();
+}
+
 void Assembly::run() {
   scene_.domain = std::make_unique<Domain>();
   read_root();

@@ -36,6 +36,7 @@ class Assembly {
   void check_curve_names();
   void check_name(const ParamBase& param, const std::string& name);
   std::vector<const Watcher*> watchers() const;
+  void check_files();
   void check_uses_of(Role role, const std::string& what, const std::set<std::string>& known);
   std::set<std::string> made_names(Role role, const std::string& what);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/readable.hpp"
 #include "core/base/text.hpp"
 #include "core/loop/assembly.hpp"
 
@@ -86,11 +87,25 @@ void Assembly::check_name(const ParamBase& param, const std::string& name) {
                                             param.info().name, longest, name));
 }
 
+// It is told now, not after the filling that stands in front.
+void Assembly::check_files() {
+  for (const auto& plugin : scene_.plugins)
+    for (const ParamBase* p : plugin->params()) {
+      if (p->info().role != Role::file) continue;
+      for (const std::string& name : p->names()) {
+        const std::string path = scene_.path_of(name);
+        if (const std::string why = why_unreadable(path); !why.empty())
+          complaints_.error(p->at(), fmt::format("cannot read \"{}\": {}", path, why));
+      }
+    }
+}
+
 void Assembly::check_names() {
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));
   check_order_of_regions();
   check_curve_names();
+  check_files();
 }
 
 }  // namespace beadwork

@@ -94,6 +94,7 @@ void Run::enter(Stage& stage, bool resumed) {
       const std::string remark = law->remark();
       options_.say(fmt::format("bond family '{}': {} bonds{}{}", law->family(), table->size(), remark.empty() ? "" : "; ", remark));
     }
+    for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->clear(domain()); });
     for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });
     check_constraints(stage, constraints());
   }

@@ -17,15 +17,14 @@ void Run::fill() {
   job.say = options_.say;
   job.warn = options_.warn;
   job.report = [&](const std::string& json) { figures_.packing_reports.push_back(json); };
-  job.resolve_path = [&](const std::string& path) {
-    return (std::filesystem::path(scene_.deck_path).parent_path() / path).string();
-  };
+  job.resolve_path = [&](const std::string& path) { return scene_.path_of(path); };
   job.in_progress = &in_progress;
   job.pause = [&] { pause(); };
   for (Filler* filler : scene_.fillers) {
     pause();
     if (!filler->after_filling()) filler->fill(domain(), job);
   }
+  for (Filler* filler : scene_.fillers) filler->conclude(job);
   if (domain().size() == 0)
     throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene_.deck_path));
 

@@ -57,6 +57,8 @@ class Scene {
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;
+  /// A path of the deck, from the deck's folder.
+  std::string path_of(const std::string& path) const;
   const std::set<const Plugin*>& readers_of(const Derived& provider) const { return derived_for.at(&provider); }
 };
 

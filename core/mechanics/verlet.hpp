@@ -27,7 +27,4 @@ template <class T>
   return renormalise(increment(dt * (w + (T(0.5) * dt) * alpha)) * q);
 }
 
-/// Moment of inertia of a full sphere [kg m^2].
-inline Real sphere_inertia(Real mass, Real radius) { return 0.4 * mass * radius * radius; }
-
 }  // namespace beadwork

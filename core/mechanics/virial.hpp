@@ -6,8 +6,6 @@
 //
 // Both ends of a bond get the same term, because r and f change sign together. Torques do not enter.
 
-#include <numbers>
-
 #include "core/mechanics/lane.hpp"
 
 namespace beadwork {
@@ -49,8 +47,5 @@ inline Mat3 virial_stress(const Virial<Real>& sum, Real volume) {
   stress << sum.xx, sum.xy, sum.xz, sum.xy, sum.yy, sum.yz, sum.xz, sum.yz, sum.zz;
   return stress * scale;
 }
-
-/// Omega_i by default: the element itself.
-inline Real sphere_volume(Real radius) { return 4. / 3. * std::numbers::pi * radius * radius * radius; }
 
 }  // namespace beadwork

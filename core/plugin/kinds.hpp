@@ -42,6 +42,8 @@ class Filler : public Plugin {
  public:
   static constexpr Kind kind = Kind::fill;
   virtual void fill(Domain& domain, const FillJob& job) = 0;
+  /// Once all have made their elements: warns of what was begun and never finished.
+  virtual void conclude(const FillJob&) {}
   /// True for what looks at the finished packing (sets by region): it runs behind all others, in the deck's order.
   virtual bool after_filling() const { return false; }
 };
@@ -127,6 +129,8 @@ struct Constraint {
 class Load : public Plugin {
  public:
   static constexpr Kind kind = Kind::load;
+  /// Before the first `start` of the stage: clears what the starts of several loads add up.
+  virtual void clear(Domain&) {}
   /// Once, at the start of its stage: initial velocities and the like.
   virtual void start(Domain&) {}
   virtual std::vector<Constraint> constraints() const { return {}; }

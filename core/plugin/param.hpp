@@ -33,8 +33,8 @@ inline constexpr Range positive{0, std::numeric_limits<Real>::infinity(), true, 
 inline constexpr Range not_negative{0};
 inline constexpr Range fraction{0, 1};
 
-/// What a text of the deck stands for, so that names can be checked against one another.
-enum class Role { plain, makes_set, set, makes_family, family, fields };
+/// What a text of the deck stands for, so that names can be checked against one another, and that files are there.
+enum class Role { plain, makes_set, set, makes_family, family, fields, file };
 
 struct ParamInfo {
   std::string name;

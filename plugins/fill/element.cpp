@@ -1,4 +1,4 @@
-#include "plugins/fill/inertia.hpp"
+#include "plugins/fill/spheres.hpp"
 
 namespace beadwork {
 

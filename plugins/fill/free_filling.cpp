@@ -1,3 +1,7 @@
+#include <utility>
+
+#include "core/base/random.hpp"
+#include "core/base/text.hpp"
 #include "plugins/fill/packing_steps.hpp"
 
 namespace beadwork {
@@ -15,13 +19,15 @@ class FreeFilling final : public ElementMaker {
   Param<Real> mean_radius{this, {.name = "mean-radius", .unit = "m", .range = positive, .doc = "Mean radius; the number of elements follows", .optional = true}};
   Param<std::string> law{this, {.name = "law", .doc = "How radii are distributed", .fallback = "uniform", .choices = {"uniform", "truncated-gaussian"}}};
   Param<Real> spread{this, {.name = "spread", .range = {0, 1, false, true}, .doc = "Radii lie within (1 - spread) and (1 + spread) of their mean", .fallback = "0.25"}};
-  Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut", .fallback = "0.125"}};
+  Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut; 0.125 where absent", .optional = true}};
   Param<std::vector<std::string>> around{this, {.name = "around", .doc = "Sets that are there already and do not move", .optional = true, .role = Role::set}};
 
   void check(Complaints& complaints) const override {
     exactly_one({&count, &mean_radius}, at(), complaints);
     exactly_one({&box, &cylinder_radius}, at(), complaints);
     if (cylinder_radius.in_deck() && !to.given()) complaints.error(cylinder_radius.at(), "a cylinder needs 'to', the centre of its other end");
+    if (to.in_deck() && !cylinder_radius.in_deck()) complaints.error(to.at(), "'to' belongs to a cylinder; a box reaches from 'from' as far as 'box' says");
+    if (deviation.in_deck() && *law == "uniform") complaints.error(deviation.at(), "'deviation' belongs to law=\"truncated-gaussian\"; a uniform law has its 'spread' only");
   }
 
   void fill(Domain& domain, const FillJob& job) override {
@@ -32,8 +38,10 @@ class FreeFilling final : public ElementMaker {
       request.region = packing::Cylinder{*from, *to, *cylinder_radius};
     if (count.given()) request.count = *count;
     if (mean_radius.given()) request.mean_radius = *mean_radius;
-    request.dispersion = {*law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian, *spread, *deviation};
-    request.seed = job.seed;
+    request.dispersion.law = *law == "uniform" ? packing::RadiusLaw::uniform : packing::RadiusLaw::truncated_gaussian;
+    request.dispersion.spread = *spread;
+    if (deviation.given()) request.dispersion.deviation = *deviation;
+    request.seed = own_seed(job.seed);
     request.pause = job.pause;
     if (around.given()) note_obstacles(domain, request.around);
     guarded(*this, [&] {
@@ -41,11 +49,32 @@ class FreeFilling final : public ElementMaker {
       for (const std::string& warning : packing.warnings) job.warn(warning);
       const Index first = add_spheres(domain, packing.position, packing.radius);
       job.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
-      (*job.in_progress)[*set] = PackingInProgress{std::move(packing), *density, first};
+      const auto rows = static_cast<Index>(packing.position.size());
+      begun_ = std::make_shared<PackingInProgress>(PackingInProgress{std::move(packing), *density, first, rows});
+      (*job.in_progress)[*set] = begun_;
     });
   }
 
+  void conclude(const FillJob& job) override {
+    const auto begun = std::exchange(begun_, nullptr);  // the memory is needed for the run
+    const std::size_t placed = begun->packing.position.size(), waiting = begun->packing.waiting.size();
+    if (waiting > 0)
+      job.warn(fmt::format("{}: only {} of {} elements found a place without overlap; <forced-filling set=\"{}\"/> places the rest", at().where(),
+                           placed, placed + waiting, *set));
+  }
+
  private:
+  std::shared_ptr<PackingInProgress> begun_;  // which the later steps go on with
+
+  // Two packings of a deck are not to be twins. The first takes the deck's seed itself, the others draw theirs: numbers
+  // below 2^53, so that they can be read in summary.json and given to a deck of that packing alone.
+  std::uint64_t own_seed(std::uint64_t seed) const {
+    const auto number = parse_number(id().substr(id().rfind('.') + 1));  // "fill.free-filling.2"; the first has none
+    if (!number) return seed;
+    constexpr std::uint64_t stream = 1000;  // far from those of a packing
+    return Random(seed, stream + static_cast<std::uint64_t>(*number)).bits() >> 11;
+  }
+
   void note_obstacles(const Domain& domain, packing::Obstacles& obstacles) const {
     const auto position = domain.elements().column("position").view<Vec3>();
     const auto radius = domain.elements().column("radius").view<Real>();

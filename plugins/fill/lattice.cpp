@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/base/failure.hpp"
-#include "plugins/fill/inertia.hpp"
+#include "plugins/fill/spheres.hpp"
 
 namespace beadwork {
 

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+
 #include "core/base/failure.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/report.hpp"
-#include "plugins/fill/inertia.hpp"
+#include "plugins/fill/spheres.hpp"
 
 namespace beadwork {
 
@@ -15,6 +17,7 @@ struct PackingInProgress {
   packing::Packing packing;
   Real density;
   Index first_row;  ///< its elements stand from here on
+  Index rows;       ///< so many: the set may hold others, made before
 };
 
 inline std::string packing_json(const std::string& set, const std::string& step, const packing::PackingReport& r) {
@@ -45,17 +48,15 @@ void guarded(const Plugin& plugin, const Step& step) {
 }
 
 /// A step that goes on with a packing that an earlier one began.
-class PackingStep : public Filler {
+class PackingStep : public SphereFiller {
  public:
   Param<std::string> set{this, {.name = "set", .doc = "Set that free-filling began", .role = Role::set}};
-  Writes<Real> mass{this, field::mass};
-  Writes<Real> inertia{this, field::inertia};
 
   void fill(Domain& domain, const FillJob& job) final {
     const auto found = job.in_progress->find(*set);
     if (found == job.in_progress->end())
       refuse(at(), fmt::format("set '{}' is no packing in progress: <free-filling> has to come first", *set));
-    auto& progress = std::any_cast<PackingInProgress&>(found->second);
+    auto& progress = *std::any_cast<const std::shared_ptr<PackingInProgress>&>(found->second);
     const std::size_t before = progress.packing.warnings.size();
     progress.packing.pause = job.pause;
     guarded(*this, [&] { go_on(progress.packing); });
@@ -71,28 +72,15 @@ class PackingStep : public Filler {
   virtual void go_on(packing::Packing& packing) = 0;
 
  private:
-  void place(Domain& domain, const PackingInProgress& progress) {
+  void place(Domain& domain, PackingInProgress& progress) {
     const auto count = static_cast<Index>(progress.packing.position.size());
-    Set& members = domain.sets()[*set];
-    const auto there = static_cast<Index>(members.size());
-    if (count > there) {
-      if (progress.first_row + there != domain.size())
+    if (count > progress.rows) {
+      if (progress.first_row + progress.rows != domain.size())
         refuse(at(), fmt::format("other elements were made since set '{}' was begun: finish one packing before the next", *set));
-      domain.add_elements(count - there);
-      for (Index row = progress.first_row + there; row < domain.size(); ++row) members.push_back(row);
+      add_rows(domain, *set, count - progress.rows);
+      progress.rows = count;
     }
-    bind(domain);
-    const auto position = domain.elements().column("position").view<Vec3>();
-    const auto radius = domain.elements().column("radius").view<Real>();
-    for (Index k = 0; k < count; ++k) {
-      const Index row = progress.first_row + k;
-      const Real r = progress.packing.radius[static_cast<std::size_t>(k)];
-      position.set(row, progress.packing.position[static_cast<std::size_t>(k)]);
-      radius[row] = r;
-      const Real m = progress.density * 4.0 / 3.0 * std::numbers::pi * r * r * r;
-      if (mass) mass[row] = m;
-      if (inertia) inertia[row] = 0.4 * m * r * r;
-    }
+    shape(domain, progress.first_row, progress.packing.position, progress.packing.radius, progress.density);
   }
 };
 

@@ -3,10 +3,11 @@
 
 namespace beadwork {
 
-/// Velocities at the start of a stage: v + g s + w x (x - c), with s the place along an axis; spins likewise.
+/// Velocities at the start of a stage: v + g s + w x (x - c), with s the place along an axis; spins likewise. Those of a
+/// stage add up.
 class InitialVelocity final : public Load {
  public:
-  static constexpr const char* about = "Velocities at the start of the stage: uniform, linear along an axis, or a rigid spin";
+  static constexpr const char* about = "Velocities at the start of the stage: uniform, linear along an axis, or a rigid spin; several on one element add up";
   Param<std::string> set{this, {.name = "set", .doc = "Set that gets the velocity", .role = Role::set}};
   Param<Vec3> velocity{this, {.name = "velocity", .unit = "m/s", .doc = "The same for all elements of the set", .fallback = "0 0 0 m/s"}};
   Param<Vec3> gradient{this, {.name = "gradient", .unit = "1/s", .doc = "Velocity that is added per length along 'along', from 'centre' on", .fallback = "0 0 0 s^-1"}};
@@ -20,12 +21,20 @@ class InitialVelocity final : public Load {
 
   void choose() override { turning.want(spin->norm() > 0); }
 
+  // What an earlier stage has left is replaced, not added to.
+  void clear(Domain& domain) override {
+    for (const Index row : domain.set(*set)) {
+      speed.set(row, Vec3::Zero());
+      if (turning) turning.set(row, Vec3::Zero());
+    }
+  }
+
   void start(Domain& domain) override {
     const int axis = (*along)[0] - 'x';
     for (const Index row : domain.set(*set)) {
       const Vec3 arm = position[row] - *centre;
-      speed.set(row, *velocity + arm[axis] * *gradient + spin->cross(arm));
-      if (turning) turning.set(row, *spin);
+      speed.add(row, *velocity + arm[axis] * *gradient + spin->cross(arm));
+      if (turning) turning.add(row, *spin);
     }
   }
 };

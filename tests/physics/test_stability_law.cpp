@@ -10,7 +10,7 @@
 #include "core/mechanics/beam_stiffness.hpp"
 #include "core/mechanics/cohesive_stiffness.hpp"
 #include "core/mechanics/spring_stiffness.hpp"
-#include "core/mechanics/verlet.hpp"
+#include "core/mechanics/sphere.hpp"
 #include "tests/support/mechanics.hpp"
 
 namespace beadwork {
@@ -38,7 +38,7 @@ Scene random_network(int nx, int ny, int nz, Real radius_ratio, std::uint64_t se
       for (int k = 0; k < nz; ++k) {
         s.x.push_back(Vec3(2 * i, 2 * j, 2 * k) + random_vector(random, 0.25));
         s.radius.push_back(random.uniform(0.75, 1.25));
-        s.mass.push_back(4. / 3 * pi * std::pow(s.radius.back(), 3));
+        s.mass.push_back(sphere_mass(1, s.radius.back()));
         s.inertia.push_back(sphere_inertia(s.mass.back(), s.radius.back()));
       }
   std::vector<std::tuple<Real, Index, Index>> pairs;

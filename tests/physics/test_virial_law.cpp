@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "core/mechanics/spring.hpp"
 #include "tests/support/mechanics.hpp"
 
@@ -53,8 +51,6 @@ TEST(virial, the_elements_of_a_stretched_chain_add_up_to_force_times_length) {
   }
   EXPECT_NEAR(sum, F * s * bonds, 1e-13);
 }
-
-TEST(virial, a_sphere_has_its_volume) { EXPECT_NEAR(sphere_volume(2), 33.510321638291124, 1e-13); }
 
 }  // namespace
 }  // namespace beadwork

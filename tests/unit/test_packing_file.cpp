@@ -34,6 +34,22 @@ TEST(PackingFile, lines_of_four_numbers_are_elements_in_the_unit_asked_for) {
   EXPECT_EQ(packing.radius[1], 0.75e-3);
 }
 
+TEST(PackingFile, names_of_columns_come_first_or_behind_remarks) {
+  EXPECT_EQ(read_packing(file_with("\n# places\nx [m], y [m], z [m], r [m]\n0,0,0,1\n"), 1).position.size(), 1u);
+  EXPECT_NE(refusal_of("0 0 0 1\nx y z r\n").find(":2: error"), std::string::npos);
+  EXPECT_NE(refusal_of("x y z r\nin mm and mm\n0 0 0 1\n").find(":2: error"), std::string::npos);
+}
+
+TEST(PackingFile, a_first_element_with_a_slip_is_not_taken_for_names) {
+  EXPECT_NE(refusal_of("O,0,0,1\n2,0,0,1\n").find(":1: error: a line holds four numbers"), std::string::npos);
+  EXPECT_NE(refusal_of("0,5;0;0;1\n").find(":1: error"), std::string::npos);
+}
+
+TEST(PackingFile, the_mark_that_spreadsheets_put_first_costs_no_element) {
+  EXPECT_EQ(read_packing(file_with("\xEF\xBB\xBF" "0,0,0,1\r\n2,0,0,1\r\n"), 1).position.size(), 2u);
+  EXPECT_EQ(read_packing(file_with("\xEF\xBB\xBF" "x,y,z,r\r\n0,0,0,1\r\n2,0,0,1\r\n"), 1).position.size(), 2u);
+}
+
 TEST(PackingFile, a_line_that_is_no_element_is_named) {
   EXPECT_NE(refusal_of("0 0 0 1\n1 2 3\n").find(":2: error: a line holds four numbers"), std::string::npos);
   EXPECT_NE(refusal_of("0 0 0 1\n1 2 3 r\n").find(":2: error"), std::string::npos);
