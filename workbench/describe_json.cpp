@@ -20,7 +20,8 @@ Json json_of(const ParamBase& param) {
 
 Json json_of(Kind kind, const FieldUse& use) {
   const Field& field = use.field();
-  return {{"verb", use_word(kind, use.verb())}, {"name", field.name}, {"on", place_name(field.on)}, {"type", type_name(field.type)}, {"unit", field.unit}, {"doc", field.doc}};
+  return {{"verb", use_word(kind, use.verb())}, {"name", field.name}, {"on", place_name(field.on)},
+          {"type", type_name(field.type)},      {"unit", field.unit}, {"doc", field.doc}};
 }
 
 }  // namespace

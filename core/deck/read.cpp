@@ -59,7 +59,7 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, std::
   const auto values = evaluate_pieces(attribute.value, attribute.value_at, scope, complaints, mistake);
   if (mistake) return refuse(mistake->reason.empty() ? "" : ": " + mistake->reason, mistake->at);
   if (!values) return {};
-  const auto has_unit = [&](const Value& v) { return v.quantity.dimension == dimension_of(unit); };
+  const auto has_unit = [wanted = dimension_of(unit)](const Value& v) { return v.quantity.dimension == wanted; };
   const bool any_has_unit = std::any_of(values->begin(), values->end(), has_unit);
   std::vector<double> result;
   for (const Value& each : *values) {

@@ -44,15 +44,18 @@ std::uintmax_t length_up_to(std::ifstream& in, std::uintmax_t first_row, std::in
   return length;
 }
 
-// The first line of a curve, whose rows after `step` are gone.
-std::string cut(const std::filesystem::path& file, std::int64_t step) {
-  std::ifstream in(file, std::ios::binary);
+std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
   std::string head;
   if (!std::getline(in, head)) throw file_failure("read", file, EIO);
+  return head;
+}
+
+void cut(const std::filesystem::path& file, std::int64_t step) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string head = head_of(in, file);
   std::error_code error;
   std::filesystem::resize_file(file, length_up_to(in, head.size() + 1, step), error);
   if (error) throw file_failure("cut", file, error.value());
-  return head;
 }
 
 }  // namespace
@@ -69,10 +72,11 @@ Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveCol
   return curve;
 }
 
-Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns, std::int64_t step) {
+Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return fresh(file, columns);
-  const std::string head = cut(file, step);
+  std::ifstream in(file, std::ios::binary);
+  const std::string head = head_of(in, file);
   if (head != first_line(columns))
     throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
                                   "wrote it",

@@ -24,9 +24,8 @@ class Curve {
  public:
   /// Writes the first line. The step comes first by itself; `columns` follow it.
   static Curve fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
-  /// Takes up a curve: drops rows after `step` and a last row that a kill has torn. A file that is not there is begun.
-  /// DeckFailure if its first line is another one.
-  static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns, std::int64_t step);
+  /// Takes up a curve that `cut_curves` has cut. A file that is not there is begun. DeckFailure if its first line is another one.
+  static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
 
   /// Throws MachineFailure if the row could not be written; the rows before it then still stand.
   void add(std::int64_t step, std::span<const Real> values);

@@ -71,11 +71,9 @@ void write_breaks_of(hid_t place, const Domain& domain) {
   }
   reals("time", [](const Break& b) { return b.time; }, {"s", "Time of the break"});
   reals("energy", [](const Break& b) { return b.energy; }, {"J", "Energy released with the break"});
-  indices(
-      "family", [](const Break& b) { return b.family; }, {"1", "Row of family_names"}, families);
+  indices("family", [](const Break& b) { return b.family; }, {"1", "Row of family_names"}, families);
   indices("bond", [](const Break& b) { return b.bond; }, {"1", "Id of the bond"}, {});
-  indices(
-      "mode", [](const Break& b) { return b.mode; }, {"1", "Row of mode_names"}, domain.breaks().modes);
+  indices("mode", [](const Break& b) { return b.mode; }, {"1", "Row of mode_names"}, domain.breaks().modes);
   h5::write_integers(group.id(), "step", steps, {"1", "Step of the break"});
   h5::write_reals(group.id(), "place", places, 3, {"m", "Middle of the bond"});
   h5::write_texts(group.id(), "family_names", families);
@@ -152,7 +150,8 @@ void set_aside(const path& record, const path& frames_folder) {
 }  // namespace
 
 Recorder::Recorder(const RunFolder& folder, RunMeta meta, Options options)
-    : root_(folder.root()), record_(folder.record()), view_(folder.view()), frames_folder_(folder.frames()), meta_(std::move(meta)), options_(options) {}
+    : root_(folder.root()), record_(folder.record()), view_(folder.view()), frames_folder_(folder.frames()),
+      meta_(std::move(meta)), options_(options) {}
 
 Recorder Recorder::fresh(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain) {
   Recorder recorder(folder, std::move(meta), options);

@@ -149,7 +149,6 @@ class Run final : private Workings, private Sight {
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
   std::optional<Recorder> recorder_;
-  std::int64_t resumed_at_ = -1;
   bool watched_ = true;  ///< false in a trial: no watcher looks
   bool has_checkpoint_ = false;
   std::int64_t saved_step_ = 0;  ///< of the newest checkpoint

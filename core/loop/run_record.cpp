@@ -113,7 +113,6 @@ void Run::load() {
   moment_.stage = meta.stage;
   moment_.time = meta.time;
   moment_.step = meta.step;
-  resumed_at_ = meta.step;
   for (const auto& report : nlohmann::json::parse(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
   restore_state();
   has_checkpoint_ = true;
@@ -227,7 +226,7 @@ CurveSink& Run::curve(const CurvePlan& plan) {
   std::vector<CurveColumn> columns{{"time", "s"}};
   for (const auto& [name, unit] : plan.columns) columns.push_back({name, unit});
   const auto file = folder_.curve(plan.name);
-  auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns, resumed_at_) : Curve::fresh(file, columns), moment_);
+  auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns) : Curve::fresh(file, columns), moment_);
   made->curve.write_sidecar(curve_json(plan));
   return *(curves_[plan.name] = std::move(made));
 }

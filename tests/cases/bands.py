@@ -194,13 +194,13 @@ def tension():
     near("nu of a round rod", -(strain[0] + strain[1]) / 2 / strain[2], 0.24, 0.03 / 0.24)
 
 
-# The slice of the double cantilever beam, five times as fast as its deck, which makes P some 2 percent larger.
+# The slice of the double cantilever beam, five times as fast as its deck, whose peak is 8.55 N against 8.66 N here.
 def dcb():
     result = run("dcb/quick.xml", v="2 m/s")
     force, crack = result.curve("force"), result.curve("crack")
     moved, P = force["displacement"], force["force"]
     late = [k for k, d in enumerate(moved) if d > 0.7e-3]
-    below("D5: the peak over that of linear fracture mechanics", max(P) / 16.2, 0.8)
+    below("D5: the peak over that of linear fracture mechanics", max(P) / 16.2, 1)
     near("D6: P over Eq (10) from 0.7 mm on", sum(P[k] / force["reference"][k] for k in late) / len(late), 1, 0.1)
     # Eq (11) lies between contacts that are open and contacts that soften: so does what the crack has cost.
     G, b, L, a0 = 560, 1.5e-3, 45e-3, 13.5e-3

@@ -29,15 +29,13 @@ class AnExpression : public testing::Test {
 
   double value(const std::string& text, double x = 0.002, double n = 3) {
     const auto expression = compile(text);
-    EXPECT_TRUE(expression) << text << "\n"
-                            << complaints.text();
+    EXPECT_TRUE(expression) << text << "\n" << complaints.text();
     return expression ? expression->evaluate(std::vector<double>{x, n}) : 0;
   }
 
   std::string unit(const std::string& text) {
     const auto expression = compile(text);
-    EXPECT_TRUE(expression) << text << "\n"
-                            << complaints.text();
+    EXPECT_TRUE(expression) << text << "\n" << complaints.text();
     return expression ? expression->dimension().name() : "";
   }
 
