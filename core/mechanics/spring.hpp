@@ -1,5 +1,5 @@
 #pragma once
-// The central spring: elements that a fibre strings together, no rotations. docs/theory/cohesive-beam.md
+// The central spring: it pulls along the line of centres, and no rotations come into it. docs/theory/spring.md
 
 #include <numbers>
 
@@ -13,16 +13,22 @@ struct SpringRest {
   T axial;   ///< k_n [N/m]
 };
 
-/// k_n = E_f pi R_f^2 / s for the spacing s. Springs in series then add up to E S / (sum of s), whatever the
-/// spacings.
-inline SpringRest<Real> fibre_spring(Real spacing, Real young, Real radius) {
-  return {spacing, young * std::numbers::pi * radius * radius / spacing};
+/// A spring of round section between centres at this distance: k_n = E pi r^2 / L. Springs in series add up to
+/// E S / (sum of L), whatever the distances.
+inline SpringRest<Real> round_spring(Real length, Real young, Real radius) {
+  return {length, young * std::numbers::pi * radius * radius / length};
 }
 
 /// Force on end 2; d = x2 - x1.
 template <class T>
 [[gnu::always_inline]] inline Vec<T> spring_force(const SpringRest<T>& rest, const Same<Vec<T>>& d) {
   return (rest.axial * (rest.length / sqrt(dot(d, d)) - T(1))) * d;
+}
+
+/// Axial force, tension positive.
+template <class T>
+[[gnu::always_inline]] inline T spring_tension(const SpringRest<T>& rest, const Same<Vec<T>>& d) {
+  return rest.axial * (sqrt(dot(d, d)) - rest.length);
 }
 
 template <class T>

@@ -13,7 +13,7 @@ class BondStress final : public Failure {
   Param<Real> strength{this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Stress sigma_fail at which a bond breaks"}};
   Param<std::string> measure{this,
                              {.name = "measure",
-                              .doc = "axial: N/A; axial-bending: largest normal stress of the section; principal: with the shear of twisting",
+                              .doc = "axial: N/A, which is all that springs have; axial-bending: largest normal stress of the section; principal: with the shear of twisting",
                               .fallback = "axial-bending",
                               .choices = {"axial", "axial-bending", "principal"}}};
   Reads<Real> axial_force{this, field::axial_force};

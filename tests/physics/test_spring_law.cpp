@@ -21,6 +21,7 @@ TEST(spring, pulls_along_the_line_of_centres_by_the_gradient_of_its_energy) {
   EXPECT_LT((f - Vec3(expected.segment<3>(6))).norm(), 1e-9 * f.norm());
   EXPECT_LT((f + Vec3(expected.segment<3>(0))).norm(), 1e-9 * f.norm());
   EXPECT_LT(cross<Real>(f, p.d()).norm(), 1e-15 * f.norm() * p.d().norm());
+  EXPECT_NEAR(spring_tension(rest, p.d()), -dot<Real>(f, p.d()) / p.d().norm(), 1e-14 * f.norm());
 }
 
 TEST(spring, its_stiffness_is_the_derivative_of_its_force) {
@@ -47,7 +48,7 @@ TEST(spring, a_row_of_any_spacing_has_the_stiffness_of_its_fibre) {
     for (int i = 0; i < 24; ++i) {
       const Real spacing = 2 * R * (1 - overlap) * (1 + 0.5 * std::sin(i));
       length += spacing;
-      compliance += 1 / fibre_spring(spacing, E, R).axial;
+      compliance += 1 / round_spring(spacing, E, R).axial;
     }
     EXPECT_NEAR(1 / compliance, E * S / length, 1e-13 * E * S / length) << overlap;
   }
