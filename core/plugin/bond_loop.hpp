@@ -12,6 +12,7 @@
 // of the law itself, the same for all bonds, are Real and become a T where they are used.
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <variant>
 #include <vector>
@@ -170,11 +171,13 @@ class ElementLines {
     const auto line = [](std::byte* base, std::size_t stride, const Index* of, int half) {
       return pack::fetch<W>([=](int lane) { return at(base, of[lane], stride) + 4 * half; });
     };
-    const auto a = line(position_, pose_, i, 0);
-    const auto b = line(position_, pose_, j, 0);
     Ends<Pack<W>> ends;
-    ends.apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    if constexpr (Law::turns) {  // x y z qw | qx qy qz
+    if constexpr (!Law::turns) {
+      ends.apart = apart<W>(i, j);
+    } else {  // x y z qw | qx qy qz
+      const auto a = line(position_, pose_, i, 0);
+      const auto b = line(position_, pose_, j, 0);
+      ends.apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
       const auto c = line(position_, pose_, i, 1);
       const auto d = line(position_, pose_, j, 1);
       ends.q1 = {a[3], {c[0], c[1], c[2]}};
@@ -198,9 +201,9 @@ class ElementLines {
   /// Lane by lane, in the order of the bonds: each sum takes its terms as the scalar loop adds them.
   template <bool turns, int W>
   [[gnu::always_inline]] void add(const Index* i, const Index* k, const Wrench<Pack<W>>& w) const {
-    const Pack<W> nothing(-0.0);  // x + (-0.0) is x, whatever the sign of a zero
     const Vec<Pack<W>>& f = w.force;
-    if constexpr (turns) {  // fx fy fz tx | ty tz
+    if constexpr (turns) {   // fx fy fz tx | ty tz
+      const Pack<W> nothing(-0.0);  // x + (-0.0) is x, whatever the sign of a zero
       const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], w.torque1[0]});
       const auto low2 = pack::rows<W>({f[0], f[1], f[2], w.torque2[0]});
       const auto high1 = pack::rows<W>({w.torque1[1], w.torque1[2], nothing, nothing});
@@ -210,21 +213,17 @@ class ElementLines {
         add_to(at(force_, k[lane], load_), low2[lane], high2[lane]);
       }
     } else {
-      const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], nothing});
-      const auto low2 = pack::rows<W>({f[0], f[1], f[2], nothing});
+      const auto low = pack::rows<W>({f[0], f[1], f[2], Pack<W>(0)});
       for (std::size_t lane = 0; lane < W; ++lane) {
-        add_to(at(force_, i[lane], load_), low1[lane]);
-        add_to(at(force_, k[lane], load_), low2[lane]);
+        take_from(at(force_, i[lane], load_), low[lane]);
+        add_to(at(force_, k[lane], load_), low[lane]);
       }
     }
   }
 
+  /// Lines whole, as nothing but sums of forces and torques stands in them.
   void clear(Index begin, Index end) const {
-    for (Index row = begin; row < end; ++row) {
-      const std::size_t at = static_cast<std::size_t>(row) * load_;
-      for (std::byte* base : {force_, torque_})
-        if (base) std::fill_n(reinterpret_cast<Real*>(base + at), 3, Real(0));
-    }
+    std::memset(force_ + static_cast<std::size_t>(begin) * load_, 0, static_cast<std::size_t>(end - begin) * load_);
   }
 
  private:
@@ -238,7 +237,18 @@ class ElementLines {
   [[gnu::always_inline]] static Real* at(std::byte* base, Index row, std::size_t stride) {
     return reinterpret_cast<Real*>(base + static_cast<std::size_t>(row) * stride);
   }
+  /// x2 - x1 where nothing else of the two lines is wanted: subtracted before it is transposed, so that one transposition does.
+  template <int W>
+  [[gnu::always_inline]] Vec<Pack<W>> apart(const Index* i, const Index* j) const {
+    const auto lane = [&](int k) { return Quad::load(at(position_, j[k], pose_)) - Quad::load(at(position_, i[k], pose_)); };
+    std::array<Pack<W>, 4> rows;
+    for (int k = 0; k < 4; ++k) rows[static_cast<std::size_t>(k)] = pack::join<W>(lane(k), W == 4 ? Quad(0) : lane(k + 4));
+    const auto d = pack::transpose<W>(rows);
+    return {d[0], d[1], d[2]};
+  }
+
   [[gnu::always_inline]] static void add_to(Real* line, const Quad& low) { (Quad::load(line) + low).store(line); }
+  [[gnu::always_inline]] static void take_from(Real* line, const Quad& low) { (Quad::load(line) - low).store(line); }
   [[gnu::always_inline]] static void add_to(Real* line, const Quad& low, const Quad& high) {
     add_to(line, low);
     add_to(line + 4, high);

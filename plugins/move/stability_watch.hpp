@@ -37,25 +37,45 @@ class StabilityWatch {
 
   // In one step the ends of a bond may approach or part by a small share of its length only: faster is no solid any more.
   void check_bonds() const {
-    for (const auto& [law, table] : w_.laws())
-      for (const Chunk& chunk : table->chunks())
-        for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-          const Index i = table->first()[b];
-          const Index j = table->second()[b];
-          const Real moved = (all_.velocity[j] - all_.velocity[i]).norm() * dt();
-          const Real length = (all_.place[j] - all_.place[i]).norm();
-          if (moved > 0.2 * length)
-            stop(i, fmt::format("of a bond of '{}' moves by {:.2g} of the bond's length in one step", table->name(), moved / length));
-        }
+    for (const auto& acting : w_.laws()) {
+      const BondTable& table = *acting.second;
+      const auto first = [&](Index c) { return first_too_fast(table, table.chunks()[static_cast<std::size_t>(c)]); };
+      const Index c = first_where(static_cast<Index>(table.chunks().size()), [&](Index k) { return first(k) >= 0; });
+      if (c < 0) continue;
+      const Index b = first(c);
+      stop(table.first()[b], fmt::format("of a bond of '{}' moves by {:.2g} of the bond's length in one step", table.name(), moved(table, b)));
+    }
+  }
+
+  Index first_too_fast(const BondTable& table, const Chunk& chunk) const {
+    for (Index b = chunk.begin; b < chunk.live_end; ++b)
+      if (moved(table, b) > 0.2) return b;
+    return -1;
+  }
+
+  Real moved(const BondTable& table, Index b) const {
+    const Index i = table.first()[b];
+    const Index j = table.second()[b];
+    return (all_.velocity[j] - all_.velocity[i]).norm() * dt() / (all_.place[j] - all_.place[i]).norm();
   }
 
   // Nor does an element pass by itself in one step.
   void check_elements() const {
-    for (Index i = 0; i < all_.count; ++i) {
-      const Real moved = all_.velocity[i].norm() * dt() / all_.radius[i];
-      if (moved <= 1 && all_.place[i].allFinite()) continue;
-      stop(i, std::isfinite(moved) ? fmt::format("moves by {:.2g} of its radius in one step", moved) : "has no finite place or velocity");
-    }
+    const auto moved = [&](Index i) { return all_.velocity[i].norm() * dt() / all_.radius[i]; };
+    const Index i = first_where(all_.count, [&](Index k) { return !(moved(k) <= 1 && all_.place[k].allFinite()); });
+    if (i < 0) return;
+    stop(i, std::isfinite(moved(i)) ? fmt::format("moves by {:.2g} of its radius in one step", moved(i)) : "has no finite place or velocity");
+  }
+
+  // -1 where there is none, as nearly always: all threads ask, and the first is looked for only if it is there.
+  template <class F>
+  static Index first_where(Index count, const F& f) {
+    bool found = false;
+#pragma omp parallel for schedule(static) reduction(|| : found) if (count > 16)
+    for (Index k = 0; k < count; ++k) found = found || f(k);
+    for (Index k = 0; found && k < count; ++k)
+      if (f(k)) return k;
+    return -1;
   }
 
   // With too long a step bonds may break before anything is fast; what they were broken by is energy that nobody brought.

@@ -32,6 +32,13 @@ says "rotations: nobody reads orientations or adds torques"
 says "forces and moments of single bonds: nobody reads them"
 ! grep -q "^  spin" "$work/plan" || fail "there is a spin"
 
+echo "nor among springs"
+sed 's|<cohesive-contact .*/>|<spring name="glue" between="all all" young="1 GPa"/>|' "$work/deck.xml" >"$work/springs.xml"
+"$beadwork" plan "$work/springs.xml" >"$work/plan"
+says "rotations: nobody reads orientations or adds torques"
+says "spring glue offers and nobody reads: section-radius, axial-force"
+! grep -qE "^  (orientation|spin|torque|inertia) " "$work/plan" || fail "there is a rotation"
+
 echo "when watchers look"
 sed 's|</scene>|<watch><energy-ledger at="0.3 us, 7"/><energy-ledger name="e" every="5" at="9"/></watch></scene>|' "$work/deck.xml" >"$work/looks.xml"
 "$beadwork" plan "$work/looks.xml" >"$work/plan"
