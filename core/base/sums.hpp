@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/parallel.hpp"
 #include "core/base/types.hpp"
 
 namespace beadwork {
@@ -11,9 +12,9 @@ namespace beadwork {
 /// Sum of block(0) ... block(blocks - 1), in this order, whichever thread finds each.
 template <class Block>
 Real sum_of_blocks(Index blocks, const Block& block) {
+  if (blocks == 1) return Real(0) + block(0);
   std::vector<Real> part(static_cast<std::size_t>(blocks), 0);
-#pragma omp parallel for schedule(static) if (blocks > 1)
-  for (Index b = 0; b < blocks; ++b) part[static_cast<std::size_t>(b)] = block(b);
+  each_shared(blocks, [&](Index b) { part[static_cast<std::size_t>(b)] = block(b); });
   Real total = 0;
   for (const Real p : part) total += p;
   return total;

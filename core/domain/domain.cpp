@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
 
 namespace beadwork {
@@ -84,23 +85,24 @@ void Domain::gather() {
   const Column* torques = elements_.find("torque");
   const auto torque = torques ? torques->view<Vec3>() : View<Vec3>{};
   const auto count = static_cast<Index>(shares_.size());
-#pragma omp parallel for schedule(static)
-  for (Index s = 0; s < count; ++s) {
-    const Share share = shares_[static_cast<std::size_t>(s)];
+  each_shared(count, [&](Index s) {
+    const Share& share = shares_[static_cast<std::size_t>(s)];
     Vec3 sum = force[share.element];
     for (Index k = share.begin; k < share.end; ++k) sum += force[share_rows_[static_cast<std::size_t>(k)]];
     force.set(share.element, sum);
-    if (!torque) continue;
+    if (!torque) return;
     sum = torque[share.element];
     for (Index k = share.begin; k < share.end; ++k) sum += torque[share_rows_[static_cast<std::size_t>(k)]];
     torque.set(share.element, sum);
-  }
+  }, 256);
 }
 
 void Domain::clear_loads() {
   for (const char* name : {"force", "torque"})
-    if (const Column* load = elements_.find(name))
-      for (Index row = 0; row < size(); ++row) load->view<Vec3>().set(row, zero<Vec3>());
+    if (const Column* load = elements_.find(name)) {
+      const auto sum = load->view<Vec3>();
+      for (Index row = 0; row < size(); ++row) sum.set(row, zero<Vec3>());
+    }
 }
 
 void Domain::clear_halo() {

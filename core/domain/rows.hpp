@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/base/pack.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
 #include "core/domain/view.hpp"
 
@@ -64,6 +65,7 @@ struct Rows<1> {
 namespace rows {
 
 inline constexpr Index block = 1024;
+inline constexpr Index few = 5;  ///< blocks from which on they are shared among the threads
 
 /// f(at) for the rows begin ... end - 1, in packs and then one by one.
 template <class F>
@@ -78,22 +80,19 @@ template <class F>
 template <class F>
 void each(Index count, const F& f) {
   const Index blocks = (count + block - 1) / block;
-#pragma omp parallel for schedule(static) if (count > 4 * block)
-  for (Index b = 0; b < blocks; ++b) each_of(b * block, std::min(count, (b + 1) * block), f);
+  each_shared(blocks, [&](Index b) { each_of(b * block, std::min(count, (b + 1) * block), f); }, few);
 }
 
 /// Whether f(at), a mask, held for any row.
 template <class F>
 bool any_of(Index count, const F& f) {
   const Index blocks = (count + block - 1) / block;
-  bool found = false;
-#pragma omp parallel for schedule(static) reduction(|| : found) if (count > 4 * block)
-  for (Index b = 0; b < blocks; ++b) {
+  const auto in_block = [&](Index b) {
     bool here = false;
     each_of(b * block, std::min(count, (b + 1) * block), [&](const auto& at) { here |= any(f(at)); });
-    found = found || here;
-  }
-  return found;
+    return here;
+  };
+  return any_shared(blocks, in_block, few);
 }
 
 /// Sum of f(at) over all rows: row by row in each block, then the blocks in order.

@@ -62,8 +62,9 @@ void Run::go_through_stages() {
     const Real before = figures_.loop_seconds;
     while (!over()) {
       step();
-      figures_.loop_seconds = before + std::chrono::duration<Real>(Clock::now() - start).count();
-      save_now_and_then();
+      const auto now = Clock::now();
+      figures_.loop_seconds = before + std::chrono::duration<Real>(now - start).count();
+      save_now_and_then(now);
     }
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
     tell_of_missed_moments();

@@ -120,8 +120,7 @@ void Run::load() {
   options_.say(fmt::format("resumed at step {}", moment_.step));
 }
 
-void Run::save_now_and_then() {
-  const auto now = Clock::now();
+void Run::save_now_and_then(Clock::time_point now) {
   if (std::chrono::duration<Real>(now - shown_).count() >= 1) {
     shown_ = now;
     show_progress();

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/base/pack.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
 #include "core/mechanics/lane.hpp"
 #include "core/mechanics/wrench.hpp"
@@ -300,13 +301,12 @@ std::vector<Index> run(const Law& law, const BondTable& table, Domain& domain, b
   const auto chunks = static_cast<Index>(table.chunks().size());
   const Index length = block_length(domain.size());
   std::vector<char> flagged(static_cast<std::size_t>(chunks), 0);
-#pragma omp parallel for schedule(static) if (chunks > 1)
-  for (Index c = 0; c < chunks; ++c) {
+  each_shared(chunks, [&](Index c) {
     const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
     if (clear) e.clear(c * length, std::min((c + 1) * length, domain.size()));
     e.clear(chunk.halo_begin, chunk.halo_end);
     flagged[static_cast<std::size_t>(c)] = run_chunk<pass>(law, table, e, chunk);
-  }
+  });
   std::vector<Index> list;
   for (Index c = 0; c < chunks; ++c)
     if (flagged[static_cast<std::size_t>(c)]) list.push_back(c);

@@ -1,4 +1,5 @@
 #include "core/base/failure.hpp"
+#include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/beam.hpp"
 #include "core/plugin/kinds.hpp"
@@ -29,16 +30,14 @@ class BondStress final : public Failure {
 
   std::vector<Index> judge(const Domain&, const BondTable& table) override {
     std::vector<std::vector<Index>> fallen(table.chunks().size());
-    const auto chunks = static_cast<Index>(table.chunks().size());
-#pragma omp parallel for schedule(static) if (chunks > 1)
-    for (Index c = 0; c < chunks; ++c) {
+    each_shared(static_cast<Index>(table.chunks().size()), [&](Index c) {
       const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
         const Real use = stress(b) / *strength;
         if (utilisation) utilisation[b] = use;
         if (use >= 1) fallen[static_cast<std::size_t>(c)].push_back(b);
       }
-    }
+    });
     std::vector<Index> all;
     for (const auto& part : fallen) all.insert(all.end(), part.begin(), part.end());
     return all;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
 #include "core/mechanics/stiffness.hpp"
 #include "core/plugin/bond_loop.hpp"
@@ -111,14 +112,12 @@ class Dashpots {
 
   /// Adds their forces to those that are there; what they added is remembered for `power`.
   void act(Domain& domain, const View<Vec3>& force, const View<Vec3>& torque, Real half_step) {
-    const auto count = static_cast<std::size_t>(domain.size());
-    pushed_.resize(count);
-    turned_.resize(torque ? count : 0);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < count; ++i) {
-      pushed_[i] = force[static_cast<Index>(i)];
-      if (torque) turned_[i] = torque[static_cast<Index>(i)];
-    }
+    pushed_.resize(static_cast<std::size_t>(domain.size()));
+    turned_.resize(torque ? pushed_.size() : 0);
+    each_shared(domain.size(), [&](Index i) {
+      pushed_[static_cast<std::size_t>(i)] = force[i];
+      if (torque) turned_[static_cast<std::size_t>(i)] = torque[i];
+    }, few);
     domain.clear_halo();
     for (const Family& f : families_) {
       if (torque)
@@ -127,11 +126,10 @@ class Dashpots {
         bond_loop::run<Pass{}>(DashpotLaw<false>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain, false);
     }
     domain.gather();
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < count; ++i) {
-      pushed_[i] = force[static_cast<Index>(i)] - pushed_[i];
-      if (torque) turned_[i] = torque[static_cast<Index>(i)] - turned_[i];
-    }
+    each_shared(domain.size(), [&](Index i) {
+      pushed_[static_cast<std::size_t>(i)] = force[i] - pushed_[static_cast<std::size_t>(i)];
+      if (torque) turned_[static_cast<std::size_t>(i)] = torque[i] - turned_[static_cast<std::size_t>(i)];
+    }, few);
   }
 
   /// Power that they took at these velocities and spins [W]; 0 where there are none.
@@ -145,6 +143,8 @@ class Dashpots {
   }
 
  private:
+  static constexpr Index few = 256;  ///< elements from which on they are shared among the threads
+
   static inline const Field along{"damping-along", On::bonds, Type::real, "N.s/m", "Dashpot along the bond", ""};
   static inline const Field across{"damping-across", On::bonds, Type::real, "N.s/m", "Dashpot across the bond", ""};
   static inline const Field bending{"damping-bending", On::bonds, Type::real, "N.m.s", "Dashpot against bending", ""};

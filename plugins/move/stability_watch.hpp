@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/failure.hpp"
+#include "core/base/parallel.hpp"
 #include "plugins/move/motion.hpp"
 
 namespace beadwork {
@@ -70,12 +71,10 @@ class StabilityWatch {
   // -1 where there is none, as nearly always: all threads ask, and the first is looked for only if it is there.
   template <class F>
   static Index first_where(Index count, const F& f) {
-    bool found = false;
-#pragma omp parallel for schedule(static) reduction(|| : found) if (count > 16)
-    for (Index k = 0; k < count; ++k) found = found || f(k);
-    for (Index k = 0; found && k < count; ++k)
-      if (f(k)) return k;
-    return -1;
+    if (!any_shared(count, f, 16)) return -1;
+    Index k = 0;
+    while (!f(k)) ++k;
+    return k;
   }
 
   // With too long a step bonds may break before anything is fast; what they were broken by is energy that nobody brought.

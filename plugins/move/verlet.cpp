@@ -86,7 +86,6 @@ class Verlet final : public Mover {
 
   void step(Workings& w) override {
     Moment& now = w.moment();
-    position_ = w.domain().elements().column("position").view<Vec3>();
     grip_anew_after_breaks(w);
     grips_.before_advance(w, position_);
     if (*beta < 1) beta_damping_.remember(motion());
