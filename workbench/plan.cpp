@@ -57,11 +57,25 @@ std::string counts(const Domain& domain) {
   return text;
 }
 
+// Seconds that the watchers of a stage take; those that stand in a later one only have not been tried.
+Real looks(const Stage& stage, Real steps, const Trial& trial) {
+  Real seconds = 0;
+  for (std::size_t w = 0; w < stage.watchers.size(); ++w) {
+    const Watcher& watcher = *stage.watchers[w];
+    const auto tried = trial.seconds_per_look.find(&watcher);
+    if (tried == trial.seconds_per_look.end()) continue;
+    const Real regular = watcher.every.given() ? std::floor(steps / static_cast<Real>(*watcher.every)) : 0;
+    seconds += tried->second * (regular + static_cast<Real>(stage.marks[w].size()));
+  }
+  return seconds;
+}
+
 std::string times(const Scene& scene, const Trial& trial, int threads) {
   std::string text = fmt::format("\nTime\n  filling {}; time step {:.4g} s{}{}\n", duration(trial.fill_seconds), trial.time_step,
                                  trial.limited_by.empty() ? "" : ", ", trial.limited_by);
-  text += fmt::format("  {:.3g} s per step ({} steps tried, {} thread{}, nothing recorded)\n", trial.seconds_per_step, trial.steps, threads,
-                      threads == 1 ? "" : "s");
+  text += fmt::format("  {:.3g} s per step ({} steps tried, {} thread{})", trial.seconds_per_step, trial.steps, threads, threads == 1 ? "" : "s");
+  for (const auto& [watcher, seconds] : trial.seconds_per_look) text += fmt::format(", {:.2g} s per look of {}", seconds, watcher->id());
+  text += "\n";
   Real total = 0;
   for (const Stage& stage : scene.stages) {
     const auto steps = steps_of(stage, trial.time_step);
@@ -69,8 +83,10 @@ std::string times(const Scene& scene, const Trial& trial, int threads) {
       text += fmt::format("  stage '{}': its conditions alone tell when it ends\n", stage.name);
       continue;
     }
-    total += *steps * trial.seconds_per_step;
-    text += fmt::format("  stage '{}': {:.0f} steps at most, about {}\n", stage.name, *steps, duration(*steps * trial.seconds_per_step));
+    const Real looking = looks(stage, *steps, trial);
+    const Real all = *steps * trial.seconds_per_step + looking;
+    total += all;
+    text += fmt::format("  stage '{}': {:.0f} steps at most, about {}, of which {} for looks\n", stage.name, *steps, duration(all), duration(looking));
   }
   if (scene.stages.size() > 1) text += fmt::format("  together about {}\n", duration(total));
   return text;

@@ -40,7 +40,8 @@ struct Trial {
   Real time_step = 0;     ///< [s]
   std::string limited_by;
   int steps = 0;
-  Real seconds_per_step = 0;  ///< without what is recorded
+  Real seconds_per_step = 0;  ///< without the looks of watchers
+  std::map<const Watcher*, Real> seconds_per_look;
 };
 
 class Run final : private Workings, private Sight {
@@ -51,7 +52,8 @@ class Run final : private Workings, private Sight {
   /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved,
   /// as far as the machine lets it.
   void all();
-  /// Instead of all(): fills, bonds, and goes on for some seconds of wall time. Nothing is recorded.
+  /// Instead of all(): fills, bonds, has each watcher look some times, and goes on for some seconds of wall time. What
+  /// watchers record goes to the run's folder, which is of no use afterwards.
   Trial trial(Real seconds);
   const RunFigures& figures() const { return figures_; }
 
@@ -75,6 +77,10 @@ class Run final : private Workings, private Sight {
   void derive_for(const Plugin& reader);
   Real wall_seconds() const;
   bool sections_wanted() const;
+
+  // a trial (run_trial.cpp)
+  Real try_looks(Watcher& watcher);
+  Real try_steps(Real seconds, int& steps);
 
   // before the loop (run_setup.cpp)
   void fill();
@@ -149,7 +155,7 @@ class Run final : private Workings, private Sight {
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
   std::optional<Recorder> recorder_;
-  bool watched_ = true;  ///< false in a trial: no watcher looks
+  bool watched_ = true;  ///< false in a trial: no watcher looks by itself
   bool has_checkpoint_ = false;
   std::int64_t saved_step_ = 0;  ///< of the newest checkpoint
   Clock::time_point began_, saved_, shown_;
