@@ -23,3 +23,9 @@ endif()
 if(NOT BEADWORK_SANITIZE)
   architecture_test(installed_package bash ${here}/installed_package.sh ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_CXX_COMPILER})
 endif()
+
+# Where valgrind is, which does not count what a sanitizer has built.
+find_program(VALGRIND valgrind)
+if(VALGRIND AND NOT BEADWORK_SANITIZE)
+  architecture_test(unasked_costs_nothing bash ${here}/unasked_costs_nothing.sh $<TARGET_FILE:beadwork_cli>)
+endif()
