@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "core/base/pack.hpp"
 #include "core/base/parallel.hpp"
@@ -22,9 +23,9 @@ struct Rows {
   Index row = 0;
 
   [[gnu::always_inline]] Pack<W> operator()(const View<const Real>& column) const {
-    Pack<W> p;
-    for (int k = 0; k < W; ++k) p.v[k] = column[row + k];
-    return p;
+    return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
+      return Pack<W>(typename Pack<W>::Native{column[row + static_cast<Index>(k)]...});
+    }(std::make_index_sequence<W>());
   }
   // Four numbers are read where three are wanted: a line of elements is long enough (Table::Layout::rows).
   [[gnu::always_inline]] Vec<Pack<W>> operator()(const View<const Vec3>& column) const {

@@ -100,6 +100,7 @@ void Run::enter(Stage& stage, bool resumed) {
     check_constraints(stage, constraints());
   }
   begin_constraints();
+  rates_are_read_ = reads_rates(stage);
   for (auto& [law, table] : laws_) live_[table] = table->live();
   blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
   if (!resumed) count_brought();
@@ -112,9 +113,11 @@ void Run::enter(Stage& stage, bool resumed) {
 }
 
 bool Run::over() {
-  if (options_.interrupt && *options_.interrupt)
+  if (options_.interrupt && *options_.interrupt) {
+    complete();
     throw Interrupted(fmt::format("interrupted at step {}; go on with: beadwork run {} --out {} --resume", moment_.step,
                                   scene_.deck_path, folder_.root().string()));
+  }
   raise(peaks_[stage_number()], moment_, constraints());
   return stage().until->reached(moment_, constraints(), peaks_[stage_number()]);
 }
@@ -123,6 +126,7 @@ bool Run::over() {
 void Run::step() {
   whole_ = false;
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
+  if (rates_are_read_) complete();
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
   log_events();
   break_bonds();
@@ -131,8 +135,12 @@ void Run::step() {
   look();
 }
 
+void Run::complete() {
+  blaming(stage().mover(), moment_, [&] { stage().mover().complete(*this); });
+}
+
 void Run::evaluate(bool settle) {
-  Evaluation how{true, settle, sections_wanted()};
+  Evaluation how{true, settle, sections_wanted(), stage().mover().in_single()};
   for (auto& [law, table] : laws_) {
     blaming(*law, moment_, [&, law = law, table = table] { law->act(domain(), *table, how); });
     how.clear = false;
@@ -150,6 +158,16 @@ bool Run::sections_wanted() const {
   for (std::size_t w = 0; w < now.watchers.size(); ++w)
     if (scene_.section_readers.contains(now.watchers[w]) && due(w)) return true;
   return false;
+}
+
+// Whether somebody reads velocities or spins at every step, before watchers look.
+bool Run::reads_rates(const Stage& stage) {
+  const auto reads = [](const auto* plugin) {
+    return std::any_of(plugin->uses().begin(), plugin->uses().end(), [](const FieldUse* use) {
+      return use->wanted() && use->verb() == Verb::reads && (use->field().name == "velocity" || use->field().name == "spin");
+    });
+  };
+  return std::any_of(stage.loads.begin(), stage.loads.end(), reads) || std::any_of(stage.failures.begin(), stage.failures.end(), reads);
 }
 
 // Changes that a law itself has made while settling, such as a contact that opened.
@@ -177,6 +195,7 @@ void Run::break_bonds() {
     if (!rows.empty()) verdicts.emplace_back(failure, std::move(rows));
   }
   if (verdicts.empty()) return;
+  complete();  // with the forces of the bonds that fall
   std::set<BondTable*> touched;
   const auto x = domain().elements().column("position").view<Vec3>();
   BreakLog& log = domain().breaks();
@@ -209,6 +228,7 @@ void Run::look(std::size_t first) {
   for (std::size_t w = first; w < watchers.size(); ++w) {
     owed_ = watchers.size() - w;
     if (!due(w)) continue;
+    complete();
     derive_for(*watchers[w]);
     blaming(*watchers[w], moment_, [&] { watchers[w]->look(*this); });
     const auto& marks = stage().marks[w];

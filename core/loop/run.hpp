@@ -67,6 +67,8 @@ class Run final : private Workings, private Sight {
   bool over();
   void step();
   void evaluate(bool settle) override;
+  void complete();
+  static bool reads_rates(const Stage& stage);
   void break_bonds();
   void log_events();
   void look(std::size_t first = 0);
@@ -147,6 +149,7 @@ class Run final : private Workings, private Sight {
   std::set<const Derived*> derived_now_;                ///< fields that stand for the present state
   Real wall_before_ = 0;                                ///< seconds of the sessions before a restart
   std::size_t owed_ = 0;                                ///< watchers of this stage that have not had their turn at this step, last in the order
+  bool rates_are_read_ = false;  ///< by loads or criteria of the stage
   bool whole_ = false;                                  ///< the state is that at the end of a step
   std::map<const BondTable*, Real> released_;           ///< energy of broken bonds, and of families that act no longer [J]
   Real initial_energy_ = 0;                             ///< there without any work [J]

@@ -89,6 +89,7 @@ void Run::restore_state() {
 }
 
 void Run::save() {
+  complete();
   store_state();
   for (auto& [name, curve] : curves_) curve->curve.sync();
   CheckpointMeta meta;

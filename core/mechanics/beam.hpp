@@ -66,6 +66,49 @@ template <class T>
   return {inverse * g - pull * e, copy(torque1), cross(g, e) - torque1};
 }
 
+/// How end 2 lies against where an unstrained beam would have it, as end 1 lies: small where strains are, however far the whole has
+/// moved and turned.
+template <class T>
+struct BeamShift {
+  Vec<T> moved;        ///< d - L n_1 [m]
+  Vec<T> normal;       ///< n_1
+  Quaternion<T> turn;  ///< of end 2 against end 1
+};
+
+template <class T>
+[[gnu::always_inline]] inline BeamShift<T> beam_shift(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
+  const Vec<T> n1 = rotate(q1, rest.axis);
+  return {d - rest.length * n1, n1, relative(q1, q2)};
+}
+
+/// The same forces and torques from that: no large number is taken from another, so that single precision keeps its digits
+/// (docs/decisions/mixed-precision.md). The axis of the rest is not used.
+template <class T>
+[[gnu::always_inline]] inline Wrench<T> beam_wrench(const BeamRest<T>& rest, const BeamShift<T>& shift) {
+  const Vec<T>&n1 = shift.normal, &u = shift.moved;
+  const T L = rest.length;
+  const T grown = (L + L) * dot(n1, u) + dot(u, u);  // l^2 - L^2
+  const T l = sqrt(L * L + grown);
+  const T both = T(1) / (l * (l + L));  // one division for two
+  const T stretch = grown * (both * l);  // l - L
+  const T inverse = both * (l + L);
+  const Vec<T> swing = inverse * (u - stretch * n1);  // e - n_1
+  const Vec<T> e = n1 + swing;
+  const Vec<T> bend = turned_by(shift.turn, n1);  // n_2 - n_1
+  const Vec<T> away = bend - swing;               // n_2 - e
+
+  const T h1 = T(0.5) * dot(swing, swing);  // 1 - e.n_1
+  const T h2 = T(0.5) * dot(away, away);
+  const T g1 = T(3) - h1 - h1 - h2;  // 2 c_1 + c_2
+  const T g2 = T(3) - h2 - h2 - h1;
+  // what of the normals is across the chord: n_i - c_i e = (n_i - e) + h_i e
+  const Vec<T> g = rest.bending * (g1 * (h1 * e - swing) + g2 * (h2 * e + away));
+  const T couple = (rest.torsion + rest.torsion) * dot(shift.turn.v, n1);
+  const Vec<T> lever = rest.bending * (g1 * swing - bend) - couple * shift.turn.v;
+  const Vec<T> torque1 = cross(n1, lever) + (couple * shift.turn.w) * n1;
+  return {inverse * g - (rest.axial * stretch) * e, copy(torque1), cross(g, e) - torque1};
+}
+
 template <class T>
 struct BeamEnergy {
   T axial, bending, torsion;  ///< [J]

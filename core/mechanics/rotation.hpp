@@ -37,6 +37,13 @@ template <class T>
   return body + q.w * t + cross(q.v, t);
 }
 
+/// By how much a vector is turned: rotate(q, body) - body, to all digits however small the turn.
+template <class T>
+[[gnu::always_inline]] inline Vec<T> turned_by(const Quaternion<T>& q, const Same<Vec<T>>& body) {
+  const Vec<T> t = T(2) * cross(q.v, body);
+  return q.w * t + cross(q.v, t);
+}
+
 template <class T>
 [[gnu::always_inline]] inline Vec<T> rotate_back(const Quaternion<T>& q, const Same<Vec<T>>& world) {
   const Vec<T> t = T(2) * cross(world, q.v);

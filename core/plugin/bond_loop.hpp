@@ -10,6 +10,13 @@
 // `At` stands for the bonds at hand, one or as many as a pack has lanes: at(column) loads their numbers, at.store(column,
 // value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T. Numbers
 // of the law itself, the same for all bonds, are Real and become a T where they are used.
+//
+// A law that can act in single precision too does so in two strokes: how the second end lies against where the bond at rest would
+// have it, found in double, and what follows from that, in which no large number is taken from another
+// (docs/decisions/mixed-precision.md):
+//
+//   template <class At, class T> BeamShift<T> shift(const At& at, const Ends<T>& ends) const;
+//   template <Pass pass, class At, class T> Wrench<T> act(const At& at, const BeamShift<T>& shift) const;
 
 #include <algorithm>
 #include <cstring>
@@ -20,6 +27,7 @@
 #include "core/base/pack.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
+#include "core/mechanics/beam.hpp"
 #include "core/mechanics/lane.hpp"
 #include "core/mechanics/wrench.hpp"
 #include "core/plugin/kinds.hpp"
@@ -42,6 +50,7 @@ constexpr bool moves() {
 struct Pass {
   bool settle = false;
   bool sections = false;
+  bool single = false;
 };
 
 /// One bond. Columns of a bond table lie plane by plane, so a row's number stands at a fixed distance from the base.
@@ -97,6 +106,60 @@ struct Several {
  private:
   [[gnu::always_inline]] Pack<W> numbers(const std::byte* base) const { return Pack<W>::load(reinterpret_cast<const Real*>(base) + row); }
 };
+
+template <class Law>
+constexpr bool has_shift() {
+  return requires(const Law& law, const One& at, const Ends<Real>& ends) { law.shift(at, ends); };
+}
+
+/// One bond, and as many as two packs hold, in single precision. Columns stay in double.
+struct OneSingle {
+  using Number = float;
+  One one;
+
+  [[gnu::always_inline]] float operator()(const View<const Real>& column) const { return static_cast<float>(one(column)); }
+  [[gnu::always_inline]] Vec<float> operator()(const View<const Vec3>& column) const { return one(column).cast<float>(); }
+  [[gnu::always_inline]] void store(const View<Real>& column, float value) const { one.store(column, value); }
+  [[gnu::always_inline]] void flag(bool mask) const { one.flag(mask); }
+};
+template <int W>
+struct SeveralSingle {
+  using Number = Pack<2 * W, float>;
+  Several<W> low, high;
+
+  [[gnu::always_inline]] Number operator()(const View<const Real>& column) const { return pack::narrow(low(column), high(column)); }
+  [[gnu::always_inline]] Vec<Number> operator()(const View<const Vec3>& column) const {
+    const Vec<Pack<W>> a = low(column), b = high(column);
+    return {pack::narrow(a[0], b[0]), pack::narrow(a[1], b[1]), pack::narrow(a[2], b[2])};
+  }
+  [[gnu::always_inline]] void store(const View<Real>& column, const Number& value) const {
+    low.store(column, pack::widen<false>(value));
+    high.store(column, pack::widen<true>(value));
+  }
+  template <class M>
+  [[gnu::always_inline]] void flag(const M& mask) const {
+    low.flag(mask);
+  }
+};
+
+[[gnu::always_inline]] inline BeamShift<float> narrow(const BeamShift<Real>& s) {
+  return {s.moved.cast<float>(), s.normal.cast<float>(), {static_cast<float>(s.turn.w), s.turn.v.cast<float>()}};
+}
+template <int W>
+[[gnu::always_inline]] inline BeamShift<Pack<2 * W, float>> narrow(const BeamShift<Pack<W>>& a, const BeamShift<Pack<W>>& b) {
+  const auto vector = [](const Vec<Pack<W>>& u, const Vec<Pack<W>>& v) __attribute__((always_inline)) {
+    return Vec<Pack<2 * W, float>>{pack::narrow(u[0], v[0]), pack::narrow(u[1], v[1]), pack::narrow(u[2], v[2])};
+  };
+  return {vector(a.moved, b.moved), vector(a.normal, b.normal), {pack::narrow(a.turn.w, b.turn.w), vector(a.turn.v, b.turn.v)}};
+}
+inline Wrench<Real> widen(const Wrench<float>& w) { return {w.force.cast<Real>(), w.torque1.cast<Real>(), w.torque2.cast<Real>()}; }
+template <bool upper, int W>
+[[gnu::always_inline]] inline Wrench<Pack<W / 2>> widen(const Wrench<Pack<W, float>>& w) {
+  const auto vector = [](const Vec<Pack<W, float>>& u) __attribute__((always_inline)) {
+    return Vec<Pack<W / 2>>{pack::widen<upper>(u[0]), pack::widen<upper>(u[1]), pack::widen<upper>(u[2])};
+  };
+  return {vector(w.force), vector(w.torque1), vector(w.torque2)};
+}
 
 /// The lines of the elements that the loop reads and adds to: position and orientation share one, velocity and spin another,
 /// force and torque a third.
@@ -199,12 +262,28 @@ class ElementLines {
     return ends;
   }
 
+  template <int W>
+  [[gnu::always_inline]] void prefetch(const Index* j, const Index* k) const {
+    for (int lane = 0; lane < W; ++lane) {
+      __builtin_prefetch(at(position_, j[lane], pose_));
+      __builtin_prefetch(at(force_, k[lane], load_), 1);
+    }
+  }
+
   /// Lane by lane, in the order of the bonds: each sum takes its terms as the scalar loop adds them.
   template <bool turns, int W>
   [[gnu::always_inline]] void add(const Index* i, const Index* k, const Wrench<Pack<W>>& w) const {
     const Vec<Pack<W>>& f = w.force;
-    if constexpr (turns) {   // fx fy fz tx | ty tz
-      const Pack<W> nothing(-0.0);  // x + (-0.0) is x, whatever the sign of a zero
+    if constexpr (turns && W == 8) {  // whole lines: fx fy fz tx ty tz - -
+      const Pack<W> nothing(-0.0);    // x + (-0.0) is x, whatever the sign of a zero
+      const auto line1 = pack::rows_of_eight<W>({-f[0], -f[1], -f[2], w.torque1[0], w.torque1[1], w.torque1[2], nothing, nothing});
+      const auto line2 = pack::rows_of_eight<W>({f[0], f[1], f[2], w.torque2[0], w.torque2[1], w.torque2[2], nothing, nothing});
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        add_to(at(force_, i[lane], load_), line1[lane]);
+        add_to(at(force_, k[lane], load_), line2[lane]);
+      }
+    } else if constexpr (turns) {   // fx fy fz tx | ty tz - -
+      const Pack<W> nothing(-0.0);
       const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], w.torque1[0]});
       const auto low2 = pack::rows<W>({f[0], f[1], f[2], w.torque2[0]});
       const auto high1 = pack::rows<W>({w.torque1[1], w.torque1[2], nothing, nothing});
@@ -248,7 +327,8 @@ class ElementLines {
     return {d[0], d[1], d[2]};
   }
 
-  [[gnu::always_inline]] static void add_to(Real* line, const Quad& low) { (Quad::load(line) + low).store(line); }
+  template <int W>
+  [[gnu::always_inline]] static void add_to(Real* line, const Pack<W>& low) { (Pack<W>::load(line) + low).store(line); }
   [[gnu::always_inline]] static void take_from(Real* line, const Quad& low) { (Quad::load(line) - low).store(line); }
   [[gnu::always_inline]] static void add_to(Real* line, const Quad& low, const Quad& high) {
     add_to(line, low);
@@ -261,34 +341,70 @@ class ElementLines {
 
 namespace bond_loop {
 
-/// The bonds of the chunk that fill whole packs; returns the first one that is left.
-template <Pass pass, int W, class Law>
-[[gnu::always_inline]] inline Index run_packs(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk,
-                                              bool& flagged) {
+/// Bonds whose second ends are fetched while those before them are worked on: first ends come in order, second ends do not.
+inline constexpr Index ahead = 24;
+
+/// Numbers that single precision cannot hold with all their digits are zero while this lives: squares of small turns are such,
+/// and processors are slow with them.
+class FlushTiny {
+#if defined(__SSE2__)
+ public:
+  FlushTiny() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }
+  ~FlushTiny() { _mm_setcsr(before_); }
+  FlushTiny(const FlushTiny&) = delete;
+  FlushTiny& operator=(const FlushTiny&) = delete;
+
+ private:
+  unsigned before_;
+#endif
+};
+
+/// The bonds of a chunk, in packs as far as they fill them.
+template <Pass pass, class Law>
+bool run_chunk(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
   const Index* first = &table.first()[0];
   const Index* second = &table.second()[0];
   const Index* target = &table.target()[0];
-  Index b = chunk.begin;
-  for (; b + W <= chunk.live_end; b += W)
-    elements.add<Law::turns, W>(
-        first + b, target + b,
-        law.template act<pass>(Several<W>{b, &flagged}, elements.ends<Law, W>(first + b, second + b)));
-  return b;
-}
-
-template <Pass pass, class Law>
-bool run_chunk(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
-  const auto first = table.first();
-  const auto second = table.second();
-  const auto target = table.target();
   const Law l = law;
   const ElementLines e = elements;
   bool flagged = false;
   Index b = chunk.begin;
-  if constexpr (pack_width > 1) b = run_packs<pass, pack_width>(l, table, e, chunk, flagged);
+  if constexpr (pack_width > 1) {
+    constexpr int W = pack_width;
+    for (; b + W <= chunk.live_end; b += W) {
+      if (b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead, target + b + ahead);
+      e.add<Law::turns, W>(first + b, target + b, l.template act<pass>(Several<W>{b, &flagged}, e.ends<Law, W>(first + b, second + b)));
+    }
+  }
+  for (; b < chunk.live_end; ++b) e.add<Law::turns>(first[b], target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law>(first[b], second[b])));
+  return flagged;
+}
+
+/// The same with forces in single precision. Each bond is rounded by itself, so the bits do not depend on packs.
+template <Pass pass, class Law>
+bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
+  const Index* first = &table.first()[0];
+  const Index* second = &table.second()[0];
+  const Index* target = &table.target()[0];
+  const Law l = law;
+  const ElementLines e = elements;
+  const FlushTiny flush;
+  bool flagged = false;
+  Index b = chunk.begin;
+  if constexpr (pack_width > 1) {
+    constexpr int W = pack_width;
+    for (; b + 2 * W <= chunk.live_end; b += 2 * W) {
+      const Several<W> low{b, &flagged}, high{b + W, &flagged};
+      if (b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead, target + b + ahead);
+      const auto shift = narrow(l.shift(low, e.ends<Law, W>(first + b, second + b)), l.shift(high, e.ends<Law, W>(first + b + W, second + b + W)));
+      const auto wrench = l.template act<pass>(SeveralSingle<W>{low, high}, shift);
+      e.add<Law::turns, W>(first + b, target + b, widen<false>(wrench));
+      e.add<Law::turns, W>(first + b + W, target + b + W, widen<true>(wrench));
+    }
+  }
   for (; b < chunk.live_end; ++b) {
-    const Index i = first[b];
-    e.add<Law::turns>(i, target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law>(i, second[b])));
+    const One one{b, &flagged};
+    e.add<Law::turns>(first[b], target[b], widen(l.template act<pass>(OneSingle{one}, narrow(l.shift(one, e.ends<Law>(first[b], second[b]))))));
   }
   return flagged;
 }
@@ -305,7 +421,10 @@ std::vector<Index> run(const Law& law, const BondTable& table, Domain& domain, b
     const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
     if (clear) e.clear(c * length, std::min((c + 1) * length, domain.size()));
     e.clear(chunk.halo_begin, chunk.halo_end);
-    flagged[static_cast<std::size_t>(c)] = run_chunk<pass>(law, table, e, chunk);
+    if constexpr (pass.single)
+      flagged[static_cast<std::size_t>(c)] = run_chunk_single<pass>(law, table, e, chunk);
+    else
+      flagged[static_cast<std::size_t>(c)] = run_chunk<pass>(law, table, e, chunk);
   });
   std::vector<Index> list;
   for (Index c = 0; c < chunks; ++c)
@@ -336,11 +455,8 @@ class BondLawOf : public BondLaw {
   void act(Domain& domain, BondTable& table, const Evaluation& how) final {
     const auto flagged = std::visit(
         [&](const auto& value) {
-          if (how.settle)
-            return how.sections ? bond_loop::run<Pass{true, true}>(value, table, domain, how.clear)
-                                : bond_loop::run<Pass{true, false}>(value, table, domain, how.clear);
-          return how.sections ? bond_loop::run<Pass{false, true}>(value, table, domain, how.clear)
-                              : bond_loop::run<Pass{false, false}>(value, table, domain, how.clear);
+          if (how.settle) return how.sections ? run<true, true>(value, table, domain, how) : run<true, false>(value, table, domain, how);
+          return how.sections ? run<false, true>(value, table, domain, how) : run<false, false>(value, table, domain, how);
         },
         law());
     events_.clear();
@@ -384,6 +500,9 @@ class BondLawOf : public BondLaw {
   bool turns() const override {
     return std::visit([]<class Law>(const Law&) { return Law::turns; }, law());
   }
+  bool can_be_single() const final {
+    return std::visit([]<class Law>(const Law&) { return has_shift<Law>(); }, law());
+  }
 
  protected:
   virtual AnyLaw law() const = 0;
@@ -391,6 +510,12 @@ class BondLawOf : public BondLaw {
   virtual void note_changes(BondTable&, std::span<const Index>, std::vector<BondEvent>&) {}
 
  private:
+  template <bool settle, bool sections, class Law>
+  static std::vector<Index> run(const Law& value, const BondTable& table, Domain& domain, const Evaluation& how) {
+    if constexpr (has_shift<Law>())
+      if (how.single) return bond_loop::run<Pass{settle, sections, true}>(value, table, domain, how.clear);
+    return bond_loop::run<Pass{settle, sections, false}>(value, table, domain, how.clear);
+  }
   template <class Law>
   static Real stored_by(const Law& value, const ElementLines& lines, const BondTable& table, Index row) {
     bool ignored = false;

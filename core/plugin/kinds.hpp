@@ -55,6 +55,7 @@ struct Evaluation {
   bool clear = false;     ///< the first family of the evaluation overwrites the sums instead of adding
   bool settle = false;    ///< the state is accepted: write what is kept
   bool sections = false;  ///< somebody reads what the law offers of each bond (axial force, moments, ...)
+  bool single = false;    ///< forces in single precision, of laws that can
 };
 
 /// A bond that changed for good while settling.
@@ -100,6 +101,8 @@ class BondLaw : public Plugin {
   virtual Matrix12 tangent(const Domain& domain, const BondTable& table, Index row) const = 0;
   /// True if the tangent has rotational parts.
   virtual bool turns() const { return true; }
+  /// True if forces can be found in single precision.
+  virtual bool can_be_single() const { return false; }
   /// True if broken bonds still act (a cohesive contact still resists closing): they stay among the live rows.
   virtual bool acts_when_broken() const { return false; }
 };
@@ -136,7 +139,8 @@ class Load : public Plugin {
   virtual std::vector<Constraint> constraints() const { return {}; }
   /// Adds forces, at every evaluation.
   virtual void push(Domain&, const Moment&) {}
-  /// After every accepted step: accumulates the work of `push`.
+  /// After every accepted step: accumulates the work of `push`. Velocities and spins stand for the end of the step where the
+  /// load declares that it reads them.
   virtual void account(const Domain&, const Moment&) {}
 };
 
@@ -177,8 +181,12 @@ class Mover : public Plugin {
   /// Before the first step of the stage: forces at the present state, time step. After a restart (`resumed`) both are
   /// what was kept.
   virtual void prepare(Workings& workings, bool resumed) = 0;
-  /// One accepted step.
+  /// One accepted step. Velocities and spins may be left behind, until somebody wants to see them.
   virtual void step(Workings& workings) = 0;
+  /// Brings velocities and spins to the end of the step.
+  virtual void complete(Workings&) {}
+  /// Whether bonds act in single precision, where their law can.
+  virtual bool in_single() const { return false; }
   /// For `plan`: the time step [s] and what limits it.
   virtual Real time_step() const = 0;
   virtual std::string limited_by() const { return ""; }

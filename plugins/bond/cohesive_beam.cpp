@@ -27,14 +27,29 @@ struct CohesiveBeamLaw {
   template <Pass pass, class At, class T>
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const Wrench<T> wrench = beam_wrench<T>(rest(at), ends.apart, ends.q1, ends.q2);
-    if constexpr (pass.sections) {
-      const BeamSection<T> section = beam_section<T>(ends.apart, wrench);
-      if (axial_force) at.store(axial_force, section.axial_force);
-      if (bending_moment) at.store(bending_moment, max(section.moment1, section.moment2));
-      if (twisting_moment) at.store(twisting_moment, section.torque);
-      if (section_radius) at.store(section_radius, sqrt(T(2) * at(bending) / at(axial)));  // B = k_n r^2 / 2
-    }
+    if constexpr (pass.sections) tell(at, beam_section<T>(ends.apart, wrench));
     return wrench;
+  }
+
+  // in single precision
+  template <class At, class T>
+  [[gnu::always_inline]] BeamShift<T> shift(const At& at, const Ends<T>& ends) const {
+    return beam_shift<T>(rest(at), ends.apart, ends.q1, ends.q2);
+  }
+  template <Pass pass, class At, class T>
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const BeamShift<T>& s) const {
+    const auto r = rest(at);
+    const Wrench<T> wrench = beam_wrench<T>(r, s);
+    if constexpr (pass.sections) tell(at, beam_section<T>(r.length * s.normal + s.moved, wrench));
+    return wrench;
+  }
+
+  template <class At, class T>
+  [[gnu::always_inline]] void tell(const At& at, const BeamSection<T>& section) const {
+    if (axial_force) at.store(axial_force, section.axial_force);
+    if (bending_moment) at.store(bending_moment, max(section.moment1, section.moment2));
+    if (twisting_moment) at.store(twisting_moment, section.torque);
+    if (section_radius) at.store(section_radius, sqrt(T(2) * at(bending) / at(axial)));  // B = k_n r^2 / 2
   }
 
   template <class At, class T>
@@ -58,6 +73,14 @@ struct CohesiveBeamFromTurned : CohesiveBeamLaw {
   template <Pass pass, class At, class T>
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     return CohesiveBeamLaw::act<pass>(at, since_bonding(at, ends));
+  }
+  template <Pass pass, class At, class T>
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const BeamShift<T>& s) const {
+    return CohesiveBeamLaw::act<pass>(at, s);
+  }
+  template <class At, class T>
+  [[gnu::always_inline]] BeamShift<T> shift(const At& at, const Ends<T>& ends) const {
+    return CohesiveBeamLaw::shift(at, since_bonding(at, ends));
   }
   template <class At, class T>
   T stored(const At& at, const Ends<T>& ends) const {

@@ -46,6 +46,8 @@ class Grips {
         if (c.grip == Grip::mean) averaged[static_cast<std::size_t>(row)] = 1;
       }
     }
+    for (Index row = 0; row < w.domain().size(); ++row)
+      if (held(row) != 0) rows_.push_back(row);
     if (!body.empty()) note_bonds(w.domain(), tables, averaged);
   }
 
@@ -68,6 +70,8 @@ class Grips {
     }
   }
 
+  /// Rows of which something prescribes an axis, ascending.
+  const std::vector<Index>& rows() const { return rows_; }
   /// Bit `axis` of the axes that something prescribes on this row.
   unsigned held(Index row) const { return held_[static_cast<std::size_t>(row)]; }
   bool holds_any(Index row, int count) const {
@@ -189,6 +193,7 @@ class Grips {
   }
 
   std::vector<Set> sets_;
+  std::vector<Index> rows_;
   std::vector<Real> means_;
   std::vector<std::vector<Real>> places_;
   std::vector<unsigned char> held_, driven_;          // bit `axis`: prescribed there, of the element itself or of a mean; of itself

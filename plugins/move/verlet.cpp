@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "core/base/sums.hpp"
-#include "core/domain/rows.hpp"
 #include "core/domain/vocabulary.hpp"
-#include "core/mechanics/verlet.hpp"
 #include "core/plugin/kinds.hpp"
 #include "plugins/move/beta_damping.hpp"
 #include "plugins/move/dashpots.hpp"
@@ -14,6 +12,7 @@
 #include "plugins/move/local_damping.hpp"
 #include "plugins/move/stability_watch.hpp"
 #include "plugins/move/stable_step.hpp"
+#include "plugins/move/verlet_rows.hpp"
 
 namespace beadwork {
 
@@ -25,6 +24,7 @@ class Verlet final : public Mover {
   Param<Real> safety{this, {.name = "safety", .range = {0, 1, true, false}, .doc = "Time step over the estimate of the largest stable one", .fallback = "0.9"}};
   Param<Real> fixed_step{this, {.name = "time-step", .unit = "s", .range = positive, .doc = "Time step, instead of the one found by itself; a run that exceeds stability is stopped", .optional = true}};
   Param<Real> local_damping{this, {.name = "local-damping", .range = {0, 1, false, true}, .doc = "Share of each force component that is turned against the motion (Cundall)", .fallback = "0"}};
+  Param<std::string> precision{this, {.name = "precision", .doc = "mixed: forces of beams in single precision, found from what has changed since they were bonded; all else in double", .fallback = "double", .choices = {"double", "mixed"}}};
   Param<Real> bond_damping{this, {.name = "bond-damping", .range = {0, 1, false, true}, .doc = "Damping ratio of a pair of elements: dashpots beside each bond, which keep both momenta; bonds that soften, such as cohesive contacts, have none", .fallback = "0"}};
 
   Keeps<Vec3> velocity{this, field::velocity};
@@ -63,6 +63,8 @@ class Verlet final : public Mover {
       dashpots_.prepare(w, *bond_damping, mass.view(), inertia.view(), resumed);
       if (!dashpots_.any()) w.warn(fmt::format("{}: 'bond-damping' has no effect here: no bonds, or only such as soften", bond_damping.at().where()));
     }
+    if (in_single() && std::none_of(w.laws().begin(), w.laws().end(), [](const auto& l) { return l.first->can_be_single(); }))
+      w.warn(fmt::format("{}: 'precision' has no effect here: no bonds whose forces can be found in single precision", precision.at().where()));
     if (!resumed) {
       step_ = largest_step(w);
       const Real largest = step_.time_step;
@@ -84,23 +86,33 @@ class Verlet final : public Mover {
     }
   }
 
+  bool in_single() const override { return *precision == "mixed"; }
+
   void step(Workings& w) override {
     Moment& now = w.moment();
     grip_anew_after_breaks(w);
     grips_.before_advance(w, position_);
     if (*beta < 1) beta_damping_.remember(motion());
-    advance_all(now.time_step);
+    advance_all(w);
     grips_.after_advance(w, position_, mass.view());
     now.time += now.time_step;
     ++now.step;
     w.evaluate(true);
     const Real taken_by_local = damp(w);
     grips_.react(w, places(), turns(), *beta);
-    correct_all(w);
-    grips_.after_correct(w, places(), turns());
+    behind_ = true;
+    if (*beta < 1 || dashpots_.any() || now.step % 100 == 0) complete(w);
     if (*beta < 1) damped[0] += beta_damping_.taken(motion(), grips_, *beta);
     book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()));
     if (now.step % 100 == 0) StabilityWatch(w, motion(), stable[0]).look();
+  }
+
+  void complete(Workings& w) override {
+    if (!behind_) return;
+    const VerletRows rows = verlet(w);
+    stop_if(w, rows::any_of(count_, [&](const auto& at) { return any(rows.complete(at)); }));
+    grips_.after_correct(w, places(), turns());
+    behind_ = false;
   }
 
   void energy(EnergySink& sink) const override {
@@ -146,45 +158,39 @@ class Verlet final : public Mover {
     const bool loosened = grips_.loosened(breaks, seen_breaks_);
     seen_breaks_ = breaks.size();
     if (!loosened) return;
+    complete(w);
     gripped[0] = static_cast<Real>(w.moment().step);
     grips_ = Grips(w, w.moment().step);
     grips_.seize(w, places(), turns(), *beta);
   }
 
-  // Places and orientations at the next time; velocities half-way there.   Eq (1)
-  void advance_all(Real dt) {
-    const Real half = 0.5 * *beta * dt;
-    rows::each(count_, [=, x = position_, v = velocity.view(), q = orientation.view(), w = spin.view(), f = force.view(),
-                        t = torque.view(), m = mass.view(), inert = inertia.view()](const auto& at) {
-      using T = typename std::decay_t<decltype(at)>::Number;
-      const Vec<T> a = (T(1) / at(m)) * at(f);
-      const Vec<T> before = at(v);
-      at.set(x, advance<T>(at(x), before, a, T(dt)));
-      at.set(v, before + T(half) * a);
-      if (!w) return;
-      const Vec<T> alpha = (T(1) / at(inert)) * at(t);
-      const Vec<T> omega = at(w);
-      at.set(q, turn<T>(at(q), omega, alpha, T(dt)));
-      at.set(w, omega + T(half) * alpha);
-    });
+  VerletRows verlet(Workings& w) const { return {motion(), w.moment().time_step, 0.5 * *beta * w.moment().time_step}; }
+
+  void advance_all(Workings& w) {
+    const VerletRows rows = verlet(w);
+    if (behind_) {
+      for (const Index row : grips_.rows()) rows.complete(Rows<1>{row});
+      grips_.after_correct(w, places(), turns());
+    }
+    stop_if(w, behind_ ? rows::any_of(count_, [&](const auto& at) { return advance_behind(rows, at); })
+                       : rows::any_of(count_, [&](const auto& at) { return any(rows.advance<false>(at)); }));
+    behind_ = false;
   }
 
-  // Velocities from half-way to the full step.   Eq (2)
-  void correct_all(Workings& w) {
-    const Real half = 0.5 * *beta * w.moment().time_step;
-    const bool broken = rows::any_of(count_, [=, v = velocity.view(), omega = spin.view(), f = force.view(), t = torque.view(),
-                                              m = mass.view(), inert = inertia.view()](const auto& at) {
-      using T = typename std::decay_t<decltype(at)>::Number;
-      const Vec<T> push = at(f);
-      T all = push[0] + push[1] + push[2];
-      at.set(v, at(v) + (T(half) / at(m)) * push);
-      if (omega) {
-        const Vec<T> twist = at(t);
-        all = all + twist[0] + twist[1] + twist[2];
-        at.set(omega, at(omega) + (T(half) / at(inert)) * twist);
-      }
-      return !(all - all >= T(0));  // an infinity or what is no number
-    });
+  // Velocities that something prescribes have been completed already.
+  template <class At>
+  [[gnu::always_inline]] bool advance_behind(const VerletRows& rows, const At& at) const {
+    if constexpr (At::count == 1) {
+      return grips_.held(at.row) ? any(rows.advance<false>(at)) : any(rows.advance<true>(at));
+    } else {
+      if (!grips_.holds_any(at.row, At::count)) return any(rows.advance<true>(at));
+      bool broken = false;
+      for (int k = 0; k < At::count; ++k) broken |= advance_behind(rows, Rows<1>{at.row + k});
+      return broken;
+    }
+  }
+
+  void stop_if(Workings& w, bool broken) const {
     if (broken) StabilityWatch(w, motion(), stable[0]).stop_at_force();
   }
 
@@ -206,6 +212,7 @@ class Verlet final : public Mover {
   Grips grips_;
   Dashpots dashpots_;
   BetaDamping beta_damping_;
+  bool behind_ = false;          // velocities stand half a step behind the places
   std::size_t seen_breaks_ = 0;  // of the log, that the grips know of
   StepLimit step_;
 };

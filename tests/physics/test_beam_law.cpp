@@ -104,6 +104,40 @@ TEST(beam, does_not_see_a_rigid_motion_of_the_whole) {
   }
 }
 
+/// The beam by how its end 2 lies against its end 1, which is found in double; forces in numbers of type T.
+template <class T>
+Vector12 by_shift(const BeamRest<Real>& rest, const Pair& p) {
+  const auto number = [](Real x) { return static_cast<T>(x); };
+  const auto vector = [](const Vec3& v) { return Vec<T>(v.cast<T>()); };
+  const BeamRest<T> same{vector(rest.axis), number(rest.length), number(rest.axial), number(rest.bending), number(rest.torsion)};
+  const BeamShift<Real> shift = beam_shift(rest, p.d(), p.q1, p.q2);
+  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved), vector(shift.normal), {number(shift.turn.w), vector(shift.turn.v)}});
+  return generalised(Wrench<Real>{w.force.template cast<Real>(), w.torque1.template cast<Real>(), w.torque2.template cast<Real>()});
+}
+
+TEST(beam, is_the_same_law_by_how_one_end_lies_against_the_other) {
+  Random random(31);
+  for (const Real size : {1e-9, 1e-3, 0.4})
+    for (int trial = 0; trial < 100; ++trial) {
+      const auto rest = stout_beam(random_vector(random, 1));
+      const Pair p = moved_rigidly(strained(random, rest, size), random_rotation(random), random_vector(random, 3));
+      const Vector12 expected = generalised(wrench(rest, p));
+      EXPECT_LT((by_shift<Real>(rest, p) - expected).norm(), 1e-13 + 1e-13 * expected.norm()) << size;
+    }
+}
+
+// The difference of two unit vectors, in single precision, would keep no digit of a millionth.
+TEST(beam, keeps_its_digits_in_single_precision_however_small_the_strain_and_large_the_turn_of_the_whole) {
+  Random random(32);
+  for (const Real size : {1e-6, 1e-3, 0.4})
+    for (int trial = 0; trial < 100; ++trial) {
+      const auto rest = stout_beam(random_vector(random, 1));
+      const Pair p = moved_rigidly(strained(random, rest, size), random_rotation(random), random_vector(random, 3));
+      const Vector12 expected = by_shift<Real>(rest, p);
+      EXPECT_LT((by_shift<float>(rest, p) - expected).norm(), 1e-6 * expected.norm()) << size;
+    }
+}
+
 TEST(beam, does_not_care_which_end_is_called_first) {
   Random random(14);
   for (int trial = 0; trial < 100; ++trial) {
