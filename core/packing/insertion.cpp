@@ -1,12 +1,25 @@
 #include "core/packing/insertion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace beadwork::packing {
 namespace {
 
 constexpr Real most_cells = 3e7;
+
+/// A cell and its 26 neighbours, those that share most with it first: most tries fail, and the sooner the cheaper.
+constexpr auto nearest_first = [] {
+  std::array<std::array<int, 3>, 27> steps{};
+  std::size_t count = 0;
+  for (int apart = 0; apart <= 3; ++apart)
+    for (int z = -1; z <= 1; ++z)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+          if (x * x + y * y + z * z == apart) steps[count++] = {x, y, z};
+  return steps;
+}();
 
 /// Lowers `clearance` to that between two balls; false once it is below `least`.
 bool lower(Real& clearance, Real least, const Ball& a, const Ball& b) {
@@ -61,13 +74,12 @@ Real InsertionGrid::clearance(const Ball& ball, Real least) const {
   const Eigen::Vector3i middle = place_of(ball.x);
   for (const Ball& obstacle : obstacles_at(flat(middle)))
     if (!lower(clearance, least, ball, obstacle)) return clearance;
-  const Eigen::Vector3i from = (middle.array() - 1).max(0), to = (middle.array() + 1).min(cells_.array() - 1);
-  Eigen::Vector3i c;
-  for (c[2] = from[2]; c[2] <= to[2]; ++c[2])
-    for (c[1] = from[1]; c[1] <= to[1]; ++c[1])
-      for (c[0] = from[0]; c[0] <= to[0]; ++c[0])
-        for (Index k = first_[flat(c)]; k >= 0; k = entry_[std::size_t(k)].next)
-          if (!lower(clearance, least, ball, entry_[std::size_t(k)].ball)) return clearance;
+  for (const auto& step : nearest_first) {
+    const Eigen::Vector3i c = middle + Eigen::Vector3i(step[0], step[1], step[2]);
+    if ((c.array() < 0).any() || (c.array() >= cells_.array()).any()) continue;
+    for (Index k = first_[flat(c)]; k >= 0; k = entry_[std::size_t(k)].next)
+      if (!lower(clearance, least, ball, entry_[std::size_t(k)].ball)) return clearance;
+  }
   return clearance;
 }
 
