@@ -1,6 +1,7 @@
 #pragma once
 // What is simulated: elements, families of bonds between them, named sets, and one row of numbers for the scene.
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +11,10 @@
 #include "core/domain/break_log.hpp"
 
 namespace beadwork {
+
+/// Far more than a machine holds, and few enough that the bonds of a solid, and the rows beyond its elements, can be
+/// numbered too.
+inline constexpr Index most_elements = std::numeric_limits<Index>::max() / 16;
 
 /// Rows of the element table, ascending.
 using Set = std::vector<Index>;

@@ -28,11 +28,19 @@ struct Cloud {
   Vec3 low = zero<Vec3>();
   Real extent = 0;
 
-  bool near(Index i, Index j) const {
-    const Real reach = rule.reach(radius[std::size_t(i)], radius[std::size_t(j)]);
-    return (position[std::size_t(j)] - position[std::size_t(i)]).squaredNorm() <= reach * reach;
-  }
 };
+
+/// An element where its neighbours in space are also its neighbours in memory.
+struct Member {
+  Vec3 x;
+  Real r;
+  Index element;
+};
+
+bool near(const Rule& rule, const Member& a, const Member& b) {
+  const Real reach = rule.reach(a.r, b.r);
+  return (b.x - a.x).squaredNorm() <= reach * reach;
+}
 
 /// Elements of similar size in cells at least as wide as the reach of any two of them. Occupied cells only
 /// are kept, in a hash table, so that one element far away costs nothing.
@@ -48,19 +56,30 @@ class Level {
   }
 
   Real largest() const { return largest_; }
-  const std::vector<Index>& members() const { return element_; }
+  std::size_t cells() const { return key_.size(); }
+  std::span<const Member> cell(std::size_t c) const { return std::span(member_).subspan(start_[c], start_[c + 1] - start_[c]); }
 
-  /// Calls visit(element) for all in the 27 cells around x; for half of them, so that two cells meet once.
+  /// Calls visit(members) for each occupied cell beside a cell of this level, on one side of it: so two cells meet once.
   template <class Visit>
-  void visit_around(const Vec3& x, bool half, const Visit& visit) const {
+  void visit_cells_after(std::size_t c, const Visit& visit) const {
+    const auto axis = [&](int a) { return std::int64_t(key_[c] >> a * bits_per_axis) & axis_mask; };
+    for (std::int64_t dz = 0; dz <= 1; ++dz)
+      for (std::int64_t dy = dz == 0 ? 0 : -1; dy <= 1; ++dy)
+        for (std::int64_t dx = dz == 0 && dy == 0 ? 1 : -1; dx <= 1; ++dx) {
+          const std::size_t other = find(key_of(axis(0) + dx, axis(1) + dy, axis(2) + dz));
+          if (other != none) visit(cell(other));
+        }
+  }
+
+  /// Calls visit(members) for each occupied cell of the 27 around x.
+  template <class Visit>
+  void visit_cells_around(const Vec3& x, const Visit& visit) const {
     const auto c = cell_of(x);
-    for (std::int64_t dz = half ? 0 : -1; dz <= 1; ++dz)
-      for (std::int64_t dy = half && dz == 0 ? 0 : -1; dy <= 1; ++dy)
-        for (std::int64_t dx = half && dz == 0 && dy == 0 ? 0 : -1; dx <= 1; ++dx) {
-          const std::size_t cell = find(key_of(c[0] + dx, c[1] + dy, c[2] + dz));
-          if (cell == none) continue;
-          const bool own = half && dz == 0 && dy == 0 && dx == 0;
-          for (std::size_t k = start_[cell]; k < start_[cell + 1]; ++k) visit(element_[k], own);
+    for (std::int64_t dz = -1; dz <= 1; ++dz)
+      for (std::int64_t dy = -1; dy <= 1; ++dy)
+        for (std::int64_t dx = -1; dx <= 1; ++dx) {
+          const std::size_t other = find(key_of(c[0] + dx, c[1] + dy, c[2] + dz));
+          if (other != none) visit(cell(other));
         }
   }
 
@@ -84,6 +103,7 @@ class Level {
 
   void sort_into_cells(const std::vector<Index>& members) {
     std::vector<Entry> entries(members.size());
+    member_.reserve(members.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
       const auto c = cell_of(cloud_.position[members[k]]);
       entries[k] = {key_of(c[0], c[1], c[2]), members[k]};
@@ -96,7 +116,8 @@ class Level {
         key_.push_back(entries[k].key);
         start_.push_back(k);
       }
-      element_.push_back(entries[k].element);
+      const Index i = entries[k].element;
+      member_.push_back({cloud_.position[std::size_t(i)], cloud_.radius[std::size_t(i)], i});
     }
     start_.push_back(entries.size());
   }
@@ -124,7 +145,7 @@ class Level {
   Real edge_ = 1;
   std::vector<std::uint64_t> key_;
   std::vector<std::size_t> start_;
-  std::vector<Index> element_;
+  std::vector<Member> member_;
   std::vector<std::size_t> table_;
 };
 
@@ -175,24 +196,45 @@ std::vector<Level> levels_of(const Cloud& cloud, std::size_t begin, std::size_t 
   return levels;
 }
 
-/// Pairs of the members of one level with each other, or with those of another level that are larger.
-void search(const Cloud& cloud, const Level& from, const Level& in, std::vector<std::vector<Pair>>& found) {
-  constexpr std::size_t block = 1024;
-  const bool same = &from == &in;
-  const std::size_t blocks = (from.members().size() + block - 1) / block;
+/// Calls search(cell, pairs) for each cell of a level; the pairs of each block of cells stand in a list of their own.
+template <class Search>
+void search_cells(const Level& level, std::vector<std::vector<Pair>>& found, const Search& search) {
+  constexpr std::size_t block = 256;
+  const std::size_t blocks = (level.cells() + block - 1) / block;
   const std::size_t base = found.size();
   found.resize(base + blocks);
 #pragma omp parallel for schedule(dynamic) if (blocks > 19)
   for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t end = std::min(from.members().size(), (b + 1) * block);
-    for (std::size_t k = b * block; k < end; ++k) {
-      const Index i = from.members()[k];
-      in.visit_around(cloud.position[std::size_t(i)], same, [&](Index j, bool own_cell) {
-        if (own_cell && j <= i) return;
-        if (cloud.near(i, j)) found[base + b].push_back({std::min(i, j), std::max(i, j)});
-      });
-    }
+    const std::size_t end = std::min(level.cells(), (b + 1) * block);
+    for (std::size_t cell = b * block; cell < end; ++cell) search(cell, found[base + b]);
   }
+}
+
+void add_if_near(const Rule& rule, const Member& a, const Member& b, std::vector<Pair>& pairs) {
+  if (near(rule, a, b)) pairs.push_back({std::min(a.element, b.element), std::max(a.element, b.element)});
+}
+
+/// Pairs of the members of a level with each other.
+void search_in(const Rule& rule, const Level& level, std::vector<std::vector<Pair>>& found) {
+  search_cells(level, found, [&](std::size_t cell, std::vector<Pair>& pairs) {
+    const auto own = level.cell(cell);
+    for (std::size_t k = 0; k < own.size(); ++k)
+      for (std::size_t l = k + 1; l < own.size(); ++l) add_if_near(rule, own[k], own[l], pairs);
+    level.visit_cells_after(cell, [&](std::span<const Member> others) {
+      for (const Member& a : own)
+        for (const Member& b : others) add_if_near(rule, a, b, pairs);
+    });
+  });
+}
+
+/// Pairs of the members of a level with those of another, whose elements are larger.
+void search_among(const Rule& rule, const Level& level, const Level& larger, std::vector<std::vector<Pair>>& found) {
+  search_cells(level, found, [&](std::size_t cell, std::vector<Pair>& pairs) {
+    for (const Member& a : level.cell(cell))
+      larger.visit_cells_around(a.x, [&](std::span<const Member> others) {
+        for (const Member& b : others) add_if_near(rule, a, b, pairs);
+      });
+  });
 }
 
 std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_t elements) {
@@ -228,13 +270,13 @@ std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<co
   const auto fixed = levels_of(cloud, moving, position.size());
   std::vector<std::vector<Pair>> found;
   for (std::size_t a = 0; a < own.size(); ++a) {
-    search(cloud, own[a], own[a], found);
-    for (std::size_t b = 0; b < a; ++b) search(cloud, own[a], own[b], found);
+    search_in(rule, own[a], found);
+    for (std::size_t b = 0; b < a; ++b) search_among(rule, own[a], own[b], found);
     for (const Level& f : fixed)
       if (own[a].largest() <= f.largest())
-        search(cloud, own[a], f, found);
+        search_among(rule, own[a], f, found);
       else
-        search(cloud, f, own[a], found);
+        search_among(rule, f, own[a], found);
   }
   return sorted(found, position.size());
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 
 namespace beadwork {
@@ -28,7 +29,8 @@ std::size_t row_stride(std::size_t width) {
 Block::Block(std::size_t bytes) : size_(bytes) {
   static std::atomic<std::size_t> count{0};
   const std::size_t stagger = (count++ * 9 * cache_line) % page;  // 9: neighbours in allocation order stay far apart
-  storage_.reset(new std::byte[bytes + 2 * page]());
+  storage_.reset(static_cast<std::byte*>(std::calloc(bytes + 2 * page, 1)));
+  if (!storage_) throw std::bad_alloc();
   const auto start = reinterpret_cast<std::uintptr_t>(storage_.get());
   data_ = storage_.get() + (round_up(start, page) - start) + stagger;
 }

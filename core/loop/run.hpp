@@ -89,6 +89,7 @@ class Run final : private Workings, private Sight {
   void pause() const;
   void add_state_columns();
   void create_families(Stage& stage);
+  void require_room(const BondLaw& law, std::size_t pairs) const;
   void gather_constraints();
   void begin_constraints();
   void check_constraints(const Stage& stage, std::span<const Constraint> constraints) const;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
@@ -81,9 +82,18 @@ void Run::create_families(Stage& stage) {
     if (scene_.first_stage(*law) != stage_number()) continue;
     if (moment_.step == 0) pause();
     BondTable& table = *domain().find_family(law->family());
-    table.create(pairs_to_bond(*law, domain()), next_id);
+    auto pairs = pairs_to_bond(*law, domain());
+    require_room(*law, pairs.size());
+    table.create(std::move(pairs), next_id);
     next_id += table.size();
   }
+}
+
+// Bonds have an id each, and at most a row beyond the elements.
+void Run::require_room(const BondLaw& law, std::size_t pairs) const {
+  const std::int64_t there = std::int64_t{domain().size()} + domain().bonds();
+  if (pairs > static_cast<std::size_t>(std::numeric_limits<Index>::max() - there))
+    refuse(law.at(), fmt::format("{} bonds more than the {} that are there cannot be numbered", pairs, domain().bonds()));
 }
 
 void Run::gather_constraints() {

@@ -26,8 +26,7 @@ inline Matrix12 beam_stiffness(const BeamRest<Real>& rest, const Vec3& d, bool w
 
   const Real tension = with_tension ? rest.axial * (l - rest.length) / l : 0;
   Matrix12 k = stiffness::between_centres(rest.axial * along + tension * across);
-  const stiffness::Matrix3x12 sum = t1 + t2;
-  k += rest.bending * (t1.transpose() * t1 + t2.transpose() * t2 + sum.transpose() * sum);
+  k += rest.bending * (stiffness::square(t1) + stiffness::square(t2) + stiffness::square(t1 + t2));
   k.block<3, 3>(3, 3) += rest.torsion * along;
   k.block<3, 3>(9, 9) += rest.torsion * along;
   k.block<3, 3>(3, 9) -= rest.torsion * along;

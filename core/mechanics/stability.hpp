@@ -2,6 +2,7 @@
 // How long an explicit step may be. The limit of velocity Verlet is dt_c = 2/sqrt(lambda), lambda the largest
 // eigenvalue of M^-1 K. docs/theory/time-step.md
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -20,13 +21,20 @@ class ElasticNetwork {
   /// A bond with the stiffness (x1, theta1, x2, theta2) of beam_stiffness and its like. Bonds are numbered as
   /// added.
   void add(Index first, Index second, const Matrix12& stiffness);
-  void reserve(Index bonds);
+  /// Room for so many bonds, each still to be `set`: by several threads where that helps.
+  void resize(Index bonds);
+  void set(Index bond, Index first, Index second, const Matrix12& stiffness);
 
   Index elements() const { return elements_; }
   Index bonds() const { return static_cast<Index>(ends_.size()); }
   Index first(Index bond) const { return ends_[static_cast<std::size_t>(bond)].first; }
   Index second(Index bond) const { return ends_[static_cast<std::size_t>(bond)].second; }
   Matrix12 stiffness(Index bond) const;
+  /// Stiffness of a bond against displacement and against turning of each end, x1, theta1, x2, theta2: the
+  /// measure by which masses are shared.
+  std::array<Real, 4> grips(Index bond) const;
+  /// For each element the sum of its bonds' grips: against displacement, against turning.
+  std::vector<std::array<Real, 2>> total_grips() const;
 
   /// y = K x, six numbers an element (displacement, rotation). Sums each element's bonds in the order of
   /// adding, so that the bits do not depend on the number of threads.
@@ -41,6 +49,9 @@ class ElasticNetwork {
   };
 
   void link() const;
+  /// Calls visit(bond) for the bonds of an element, in the order of adding.
+  template <class Visit>
+  void visit_bonds(Index element, const Visit& visit) const;
 
   Index elements_;
   std::vector<Ends> ends_;

@@ -30,5 +30,13 @@ inline Matrix12 between_centres(const Mat3& k) {
   return block;
 }
 
+/// a^T a, written out: the three terms of each sum are too few for a general product.
+inline Matrix12 square(const Matrix3x12& a) {
+  Matrix12 product;
+  for (int c = 0; c < 12; ++c)
+    for (int r = 0; r < 12; ++r) product(r, c) = a(0, r) * a(0, c) + a(1, r) * a(1, c) + a(2, r) * a(2, c);
+  return product;
+}
+
 }  // namespace stiffness
 }  // namespace beadwork

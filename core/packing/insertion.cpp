@@ -1,12 +1,25 @@
 #include "core/packing/insertion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace beadwork::packing {
 namespace {
 
 constexpr Real most_cells = 3e7;
+
+/// A cell and its 26 neighbours, those that share most with it first: most tries fail, and the sooner the cheaper.
+constexpr auto nearest_first = [] {
+  std::array<std::array<int, 3>, 27> steps{};
+  std::size_t count = 0;
+  for (int apart = 0; apart <= 3; ++apart)
+    for (int z = -1; z <= 1; ++z)
+      for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+          if (x * x + y * y + z * z == apart) steps[count++] = {x, y, z};
+  return steps;
+}();
 
 /// Lowers `clearance` to that between two balls; false once it is below `least`.
 bool lower(Real& clearance, Real least, const Ball& a, const Ball& b) {
@@ -61,13 +74,12 @@ Real InsertionGrid::clearance(const Ball& ball, Real least) const {
   const Eigen::Vector3i middle = place_of(ball.x);
   for (const Ball& obstacle : obstacles_at(flat(middle)))
     if (!lower(clearance, least, ball, obstacle)) return clearance;
-  const Eigen::Vector3i from = (middle.array() - 1).max(0), to = (middle.array() + 1).min(cells_.array() - 1);
-  Eigen::Vector3i c;
-  for (c[2] = from[2]; c[2] <= to[2]; ++c[2])
-    for (c[1] = from[1]; c[1] <= to[1]; ++c[1])
-      for (c[0] = from[0]; c[0] <= to[0]; ++c[0])
-        for (Index k = first_[flat(c)]; k >= 0; k = entry_[std::size_t(k)].next)
-          if (!lower(clearance, least, ball, entry_[std::size_t(k)].ball)) return clearance;
+  for (const auto& step : nearest_first) {
+    const Eigen::Vector3i c = middle + Eigen::Vector3i(step[0], step[1], step[2]);
+    if ((c.array() < 0).any() || (c.array() >= cells_.array()).any()) continue;
+    for (Index k = first_[flat(c)]; k >= 0; k = entry_[std::size_t(k)].next)
+      if (!lower(clearance, least, ball, entry_[std::size_t(k)].ball)) return clearance;
+  }
   return clearance;
 }
 
@@ -79,15 +91,19 @@ bool InsertionGrid::clear_of_obstacles(const Vec3& x, Real margin) const {
 
 namespace {
 
+Vec3 random_unit(Random& random) {
+  Vec3 unit;
+  for (int a = 0; a < 3; ++a) unit[a] = random.uniform();
+  return unit;
+}
+
 /// The roomiest of some random places for a radius.
 bool find_place(const InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
                 Ball& ball) {
   Real best = -rule.tolerance;
   bool found = false;
   for (int k = 0; k < rule.choices; ++k) {
-    Vec3 unit;
-    for (int a = 0; a < 3; ++a) unit[a] = random.uniform();
-    const Ball candidate{point_in(region, unit, ball.r), ball.r};
+    const Ball candidate{point_in(region, random_unit(random), ball.r), ball.r};
     const Real clearance = grid.clearance(candidate, best);
     if (clearance < best) continue;
     best = clearance;
@@ -97,31 +113,71 @@ bool find_place(const InsertionGrid& grid, const Region& region, const Insertion
   return found;
 }
 
+/// Tries each radius once, in turn. Where a ball overlaps what stands there already it will overlap it later too, so many
+/// tries are looked at together, by all threads; those that then seem free are looked at again, one after another.
+void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random, std::vector<Real>& radii,
+                   std::vector<Ball>& placed, int& failed) {
+  constexpr std::size_t block = 8192;
+  std::vector<Ball> candidate;
+  std::vector<char> free;
+  std::size_t kept = 0;
+  const auto fits = [&](const Ball& ball) { return grid.clearance(ball, -rule.tolerance) >= -rule.tolerance; };
+  for (std::size_t begin = 0; begin < radii.size(); begin += block) {
+    const std::size_t count = std::min(block, radii.size() - begin);
+    candidate.clear();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Real r = radii[begin + k];
+      candidate.push_back({point_in(region, random_unit(random), r), r});
+    }
+    free.assign(count, 0);
+#pragma omp parallel for schedule(static) if (count == block)
+    for (std::size_t k = 0; k < count; ++k) free[k] = fits(candidate[k]);
+    for (std::size_t k = 0; k < count; ++k) {
+      rule.pause();
+      const bool found = failed < rule.tries && free[k] && fits(candidate[k]);
+      if (failed < rule.tries) failed = found ? 0 : failed + 1;
+      if (found) {
+        grid.add(candidate[k]);
+        placed.push_back(candidate[k]);
+      } else {
+        radii[kept++] = candidate[k].r;
+      }
+    }
+  }
+  radii.resize(kept);
+}
+
+/// Tries each radius up to `patience` times, in turn.
+void try_each(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random, std::vector<Real>& radii,
+              std::vector<Ball>& placed, int& failed) {
+  std::size_t kept = 0;
+  for (const Real r : radii) {
+    rule.pause();
+    Ball ball{zero<Vec3>(), r};
+    bool found = false;
+    for (int go = 0; go < rule.patience && !found && failed < rule.tries; ++go) {
+      found = find_place(grid, region, rule, random, ball);
+      failed = found ? 0 : failed + 1;
+    }
+    if (found) {
+      grid.add(ball);
+      placed.push_back(ball);
+    } else {
+      radii[kept++] = r;
+    }
+  }
+  radii.resize(kept);
+}
+
 }  // namespace
 
 void insert_at_random(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
                       std::vector<Real>& radii, std::vector<Ball>& placed) {
   // The radii take turns: a large element that finds no room does not hold up the others.
   int failed = 0;
-  while (!radii.empty() && failed < rule.tries) {
-    std::size_t kept = 0;
-    for (const Real r : radii) {
-      rule.pause();
-      Ball ball{zero<Vec3>(), r};
-      bool found = false;
-      for (int go = 0; go < rule.patience && !found && failed < rule.tries; ++go) {
-        found = find_place(grid, region, rule, random, ball);
-        failed = found ? 0 : failed + 1;
-      }
-      if (found) {
-        grid.add(ball);
-        placed.push_back(ball);
-      } else {
-        radii[kept++] = r;
-      }
-    }
-    radii.resize(kept);
-  }
+  const bool once = rule.choices == 1 && rule.patience == 1;
+  while (!radii.empty() && failed < rule.tries)
+    (once ? try_each_once : try_each)(grid, region, rule, random, radii, placed, failed);
 }
 
 }  // namespace beadwork::packing

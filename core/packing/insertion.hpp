@@ -59,7 +59,7 @@ struct InsertionRule {
 };
 
 /// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed`
-/// and entered in the grid; `radii` keeps the others.
+/// and entered in the grid; `radii` keeps the others. More numbers may be drawn than tries are made.
 void insert_at_random(InsertionGrid&, const Region&, const InsertionRule&, Random&, std::vector<Real>& radii,
                       std::vector<Ball>& placed);
 

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "core/base/failure.hpp"
 #include "plugins/fill/spheres.hpp"
 
@@ -18,13 +16,15 @@ class Lattice final : public ElementMaker {
   void check(Complaints& complaints) const override {
     for (int axis = 0; axis < 3; ++axis)
       if (count->coeff(axis) != std::floor(count->coeff(axis))) complaints.error(count.at(), "'count' wants three whole numbers");
-    if (count->prod() > static_cast<Real>(std::numeric_limits<Index>::max() / 16))
+    if (count->prod() > static_cast<Real>(most_elements))
       complaints.error(count.at(), fmt::format("'count' asks for {} elements, more than rows can be numbered", count->prod()));
   }
 
   void fill(Domain& domain, const FillJob&) override {
+    const auto number = static_cast<std::size_t>(count->prod());
+    require_room(domain, number);
     std::vector<Vec3> centres;
-    centres.reserve(static_cast<std::size_t>(count->prod()));
+    centres.reserve(number);
     for (Real i = 0; i < count->x(); ++i)
       for (Real j = 0; j < count->y(); ++j)
         for (Real k = 0; k < count->z(); ++k) centres.push_back(*from + 2 * *radius * Vec3(i, j, k));

@@ -73,12 +73,12 @@ class PackingStep : public SphereFiller {
 
  private:
   void place(Domain& domain, PackingInProgress& progress) {
-    const auto count = static_cast<Index>(progress.packing.position.size());
-    if (count > progress.rows) {
+    const std::size_t count = progress.packing.position.size(), before = static_cast<std::size_t>(progress.rows);
+    if (count > before) {
       if (progress.first_row + progress.rows != domain.size())
         refuse(at(), fmt::format("other elements were made since set '{}' was begun: finish one packing before the next", *set));
-      add_rows(domain, *set, count - progress.rows);
-      progress.rows = count;
+      add_rows(domain, *set, count - before);
+      progress.rows = static_cast<Index>(count);
     }
     shape(domain, progress.first_row, progress.packing.position, progress.packing.radius, progress.density);
   }

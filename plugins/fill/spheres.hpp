@@ -1,8 +1,11 @@
 #pragma once
 // What every plugin that makes elements declares and sets.
 
+#include <fmt/format.h>
+
 #include <span>
 
+#include "core/base/failure.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/sphere.hpp"
 #include "core/plugin/kinds.hpp"
@@ -16,11 +19,20 @@ class SphereFiller : public Filler {
   Writes<Real> inertia{this, field::inertia};
 
  protected:
+  /// Throws DeckFailure if so many more elements cannot be numbered.
+  void require_room(const Domain& domain, std::size_t count) const {
+    const auto room = static_cast<std::size_t>(most_elements - domain.size());
+    if (count > room)
+      refuse(at(), fmt::format("{} elements more than the {} that are there cannot be numbered: a scene holds {} at most", count, domain.size(),
+                               most_elements));
+  }
+
   /// New rows behind all others, members of the set; what stands in them is still to be given. Returns the first.
-  Index add_rows(Domain& domain, const std::string& set, Index count) {
-    const Index first = domain.add_elements(count);
+  Index add_rows(Domain& domain, const std::string& set, std::size_t count) {
+    require_room(domain, count);
+    const Index first = domain.add_elements(static_cast<Index>(count));
     Set& members = domain.sets()[set];
-    for (Index row = first; row < first + count; ++row) members.push_back(row);
+    for (Index row = first; row < domain.size(); ++row) members.push_back(row);
     return first;
   }
 
@@ -49,7 +61,7 @@ class ElementMaker : public SphereFiller {
  protected:
   /// Returns the first row.
   Index add_spheres(Domain& domain, std::span<const Vec3> centres, std::span<const Real> radii) {
-    const Index first = add_rows(domain, *set, static_cast<Index>(centres.size()));
+    const Index first = add_rows(domain, *set, centres.size());
     shape(domain, first, centres, radii, *density);
     return first;
   }

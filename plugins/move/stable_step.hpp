@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "core/domain/vocabulary.hpp"
@@ -31,24 +33,41 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
     if (c.grip == Grip::each)
       for (const Index row : domain.set(c.set)) mobility.hold(row, c.axis);
 
-  ElasticNetwork network(domain.size());
-  const auto position = domain.elements().column("position").view<Vec3>();
-  std::vector<std::pair<const BondTable*, Index>> origin;
+  // Each chunk's live bonds follow those of the chunks before, whichever thread asks their law.
+  struct Part {
+    const BondLaw* law;
+    const BondTable* table;
+    Chunk chunk;
+    Index begin;  // number in the network of its first bond
+  };
+  std::vector<Part> parts;
+  Index bonds = 0;
   for (const auto& [law, table] : w.laws())
-    for (const Chunk& chunk : table->chunks())
-      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-        const Index i = table->first()[b], j = table->second()[b];
-        network.add(i, j, law->tangent(domain, *table, b) + more(*table, b, Vec3(position[j] - position[i])));
-        origin.emplace_back(table, b);
-      }
+    for (const Chunk& chunk : table->chunks()) {
+      parts.push_back({law, table, chunk, bonds});
+      bonds += chunk.live_end - chunk.begin;
+    }
+  ElasticNetwork network(domain.size());
+  network.resize(bonds);
+  const auto position = domain.elements().column("position").view<Vec3>();
+#pragma omp parallel for schedule(dynamic) if (parts.size() > 1)
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& [law, table, chunk, begin] = parts[p];
+    for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+      const Index i = table->first()[b], j = table->second()[b];
+      network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*table, b, Vec3(position[j] - position[i])));
+    }
+  }
   if (network.bonds() == 0) return {};
   const StableStep found = stable_step(network, mobility, 1);
   StepLimit limit{found.dt, ""};
   if (!std::isfinite(found.dt)) return {};
   limit.by = fmt::format("limited by element {}, which {}", domain.elements().column("id").view<Index>()[found.mode.element],
                          found.mode.rotates ? "turns" : "moves");
-  if (found.bound.bond >= 0)
-    limit.by += fmt::format(" (stiffest bond: one of '{}')", origin[static_cast<std::size_t>(found.bound.bond)].first->name());
+  if (found.bound.bond >= 0) {
+    const auto next = std::upper_bound(parts.begin(), parts.end(), found.bound.bond, [](Index bond, const Part& part) { return bond < part.begin; });
+    limit.by += fmt::format(" (stiffest bond: one of '{}')", std::prev(next)->table->name());
+  }
   return limit;
 }
 
