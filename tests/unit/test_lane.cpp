@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "core/base/random.hpp"
 #include "core/mechanics/beam.hpp"
 #include "core/mechanics/cohesive.hpp"
@@ -33,6 +35,21 @@ Two min(Two x, Two y) { return {beadwork::min(x.a, y.a), beadwork::min(x.b, y.b)
 Two max(Two x, Two y) { return {beadwork::max(x.a, y.a), beadwork::max(x.b, y.b)}; }
 Two select(Mask m, Two x, Two y) { return {m.a ? x.a : y.a, m.b ? x.b : y.b}; }
 
+/// A number that counts what is done with it.
+struct Counted {
+  double value;
+  Counted() = default;
+  Counted(double v) : value(v) {}
+  static inline int plain = 0, divisions = 0, roots = 0;
+  static Counted one(double v) { return ++plain, Counted(v); }
+  friend Counted operator+(Counted x, Counted y) { return one(x.value + y.value); }
+  friend Counted operator-(Counted x, Counted y) { return one(x.value - y.value); }
+  friend Counted operator*(Counted x, Counted y) { return one(x.value * y.value); }
+  friend Counted operator/(Counted x, Counted y) { return ++divisions, Counted(x.value / y.value); }
+  friend Counted operator-(Counted x) { return Counted(-x.value); }
+  friend Counted sqrt(Counted x) { return ++roots, Counted(std::sqrt(x.value)); }
+};
+
 }  // namespace lanes
 
 namespace Eigen {
@@ -41,6 +58,12 @@ struct NumTraits<lanes::Two> : GenericNumTraits<double> {
   using Real = lanes::Two;
   using NonInteger = lanes::Two;
   using Nested = lanes::Two;
+};
+template <>
+struct NumTraits<lanes::Counted> : GenericNumTraits<double> {
+  using Real = lanes::Counted;
+  using NonInteger = lanes::Counted;
+  using Nested = lanes::Counted;
 };
 }  // namespace Eigen
 
@@ -132,6 +155,20 @@ TEST(lane, springs_and_steps_do_too) {
   const auto pack = turn<Two>(both(qa, qb), both(a, b), both(b, a), 0.1);
   EXPECT_EQ(pack.w.a, (turn<Real>(qa, a, b, 0.1).w));
   EXPECT_EQ(pack.w.b, (turn<Real>(qb, b, a, 0.1).w));
+}
+
+// What docs/performance.md says of a bond. Recorded 2026-11: counted, not derived.
+TEST(lane, a_beam_takes_some_two_hundred_operations_one_division_and_one_root) {
+  using lanes::Counted;
+  const auto count = [](const auto& f) {
+    Counted::plain = Counted::divisions = Counted::roots = 0;
+    f();
+    return std::array{Counted::plain, Counted::divisions, Counted::roots};
+  };
+  const Vec<Counted> axis(1., 0., 0.), apart(1.01, 0.02, 0.03);
+  const Quaternion<Counted> turn{1., Vec<Counted>(0.01, 0.02, 0.03)};
+  EXPECT_EQ(count([&] { beam_wrench<Counted>(BeamRest<Counted>{axis, 1., 1., 1., 1.}, apart, turn, turn); }), (std::array{190, 1, 1}));
+  EXPECT_EQ(count([&] { spring_force<Counted>({1., 1.}, apart); }), (std::array{10, 1, 1}));
 }
 
 TEST(lane, select_takes_the_first_where_the_mask_holds) {
