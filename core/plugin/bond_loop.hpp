@@ -180,6 +180,7 @@ class ElementLines {
     if (const Column* velocity = domain.elements().find("velocity")) lines.motion_ = velocity->stride();
     lines.pose_ = domain.elements().column("position").stride();
     if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
+    lines.far_ = static_cast<std::size_t>(domain.size()) * (lines.pose_ + lines.load_) > near;
     return lines;
   }
 
@@ -262,6 +263,8 @@ class ElementLines {
     return ends;
   }
 
+  /// Lines that are more than a cache holds are worth to be asked for early.
+  bool far() const { return far_; }
   template <int W>
   [[gnu::always_inline]] void prefetch(const Index* j, const Index* k) const {
     for (int lane = 0; lane < W; ++lane) {
@@ -337,6 +340,8 @@ class ElementLines {
 
   std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
   std::size_t pose_ = 0, motion_ = 0, load_ = 0;
+  bool far_ = false;
+  static constexpr std::size_t near = 16 << 20;
 };
 
 namespace bond_loop {
@@ -372,7 +377,7 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
   if constexpr (pack_width > 1) {
     constexpr int W = pack_width;
     for (; b + W <= chunk.live_end; b += W) {
-      if (b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead, target + b + ahead);
+      if (e.far() && b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead, target + b + ahead);
       e.add<Law::turns, W>(first + b, target + b, l.template act<pass>(Several<W>{b, &flagged}, e.ends<Law, W>(first + b, second + b)));
     }
   }
@@ -395,7 +400,7 @@ bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines
     constexpr int W = pack_width;
     for (; b + 2 * W <= chunk.live_end; b += 2 * W) {
       const Several<W> low{b, &flagged}, high{b + W, &flagged};
-      if (b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead, target + b + ahead);
+      if (e.far() && b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead, target + b + ahead);
       const auto shift = narrow(l.shift(low, e.ends<Law, W>(first + b, second + b)), l.shift(high, e.ends<Law, W>(first + b + W, second + b + W)));
       const auto wrench = l.template act<pass>(SeveralSingle<W>{low, high}, shift);
       e.add<Law::turns, W>(first + b, target + b, widen<false>(wrench));
