@@ -62,7 +62,7 @@ Real looks(const Stage& stage, Real steps, const Trial& trial) {
   Real seconds = 0;
   for (std::size_t w = 0; w < stage.watchers.size(); ++w) {
     const Watcher& watcher = *stage.watchers[w];
-    const auto tried = trial.seconds_per_look.find(&watcher);
+    const auto tried = std::find_if(trial.seconds_per_look.begin(), trial.seconds_per_look.end(), [&](const auto& look) { return look.first == &watcher; });
     if (tried == trial.seconds_per_look.end()) continue;
     const Real regular = watcher.every.given() ? std::floor(steps / static_cast<Real>(*watcher.every)) : 0;
     seconds += tried->second * (regular + static_cast<Real>(stage.marks[w].size()));

@@ -77,13 +77,6 @@ template <class F>
   for (; row < end; ++row) f(Rows<1>{row});
 }
 
-/// f(at) for all rows, shared among the threads.
-template <class F>
-void each(Index count, const F& f) {
-  const Index blocks = (count + block - 1) / block;
-  each_shared(blocks, [&](Index b) { each_of(b * block, std::min(count, (b + 1) * block), f); }, few);
-}
-
 /// Whether f(at), a mask, held for any row.
 template <class F>
 bool any_of(Index count, const F& f) {

@@ -36,6 +36,7 @@ void Run::all() {
     } catch (const MachineFailure&) {
       throw;
     } catch (const std::exception& failure) {
+      complete_if_possible();
       close("failed", failure.what());
       throw;
     }
@@ -135,6 +136,15 @@ void Run::step() {
   look();
 }
 
+// So that what summary.json says of a failed run's energies stands for one moment.
+void Run::complete_if_possible() {
+  if (!whole_) return;
+  try {
+    complete();
+  } catch (const std::exception&) {  // the failure that is being reported came first
+  }
+}
+
 void Run::complete() {
   blaming(stage().mover(), moment_, [&] { stage().mover().complete(*this); });
 }
@@ -161,11 +171,14 @@ bool Run::sections_wanted() const {
 }
 
 // Whether somebody reads velocities or spins at every step, before watchers look.
-bool Run::reads_rates(const Stage& stage) {
-  const auto reads = [](const auto* plugin) {
+bool Run::reads_rates(const Stage& stage) const {
+  const auto directly = [](const Plugin* plugin) {
     return std::any_of(plugin->uses().begin(), plugin->uses().end(), [](const FieldUse* use) {
       return use->wanted() && use->verb() == Verb::reads && (use->field().name == "velocity" || use->field().name == "spin");
     });
+  };
+  const auto reads = [&](const Plugin* plugin) {
+    return directly(plugin) || std::any_of(scene_.derived.begin(), scene_.derived.end(), [&](const Derived* derived) { return scene_.readers_of(*derived).contains(plugin) && directly(derived); });
   };
   return std::any_of(stage.loads.begin(), stage.loads.end(), reads) || std::any_of(stage.failures.begin(), stage.failures.end(), reads);
 }
@@ -222,20 +235,28 @@ void Run::break_bonds() {
 }
 
 void Run::look(std::size_t first) {
-  if (!watched_) return;
-  derived_now_.clear();
   const auto& watchers = stage().watchers;
+  if (!watched_) {
+    for (std::size_t w = 0; w < watchers.size(); ++w) note_marks(w);
+    return;
+  }
+  derived_now_.clear();
   for (std::size_t w = first; w < watchers.size(); ++w) {
     owed_ = watchers.size() - w;
     if (!due(w)) continue;
     complete();
     derive_for(*watchers[w]);
     blaming(*watchers[w], moment_, [&] { watchers[w]->look(*this); });
-    const auto& marks = stage().marks[w];
-    for (std::size_t k = 0; k < marks.size(); ++k)
-      if (marks[k].reached(moment_, constraints())) looked_[stage_number()][w][k] = 1;
+    note_marks(w);
   }
   owed_ = 0;
+}
+
+// Moments of its 'at' that have come have had their look.
+void Run::note_marks(std::size_t watcher) {
+  const auto& marks = stage().marks[watcher];
+  for (std::size_t k = 0; k < marks.size(); ++k)
+    if (marks[k].reached(moment_, constraints())) looked_[stage_number()][watcher][k] = 1;
 }
 
 // What the plugin reads of derived fields, each once for all who read it.

@@ -41,7 +41,7 @@ struct Trial {
   std::string limited_by;
   int steps = 0;
   Real seconds_per_step = 0;  ///< without the looks of watchers
-  std::map<const Watcher*, Real> seconds_per_look;
+  std::vector<std::pair<const Watcher*, Real>> seconds_per_look;
 };
 
 class Run final : private Workings, private Sight {
@@ -68,10 +68,12 @@ class Run final : private Workings, private Sight {
   void step();
   void evaluate(bool settle) override;
   void complete();
-  static bool reads_rates(const Stage& stage);
+  void complete_if_possible();
+  bool reads_rates(const Stage& stage) const;
   void break_bonds();
   void log_events();
   void look(std::size_t first = 0);
+  void note_marks(std::size_t watcher);
   bool due(std::size_t watcher) const;
   void tell_of_missed_moments() const;
   bool came(const Watcher& watcher, std::size_t mark) const;

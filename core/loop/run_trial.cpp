@@ -16,25 +16,29 @@ Trial Run::trial(Real seconds) {
   trial.time_step = moment_.time_step;
   trial.limited_by = stage().mover().limited_by();
   open_record();
-  for (Watcher* watcher : stage().watchers) trial.seconds_per_look[watcher] = try_looks(*watcher);
   trial.seconds_per_step = try_steps(seconds, trial.steps);
+  for (Watcher* watcher : stage().watchers) trial.seconds_per_look.emplace_back(watcher, try_looks(*watcher));
   return trial;
 }
 
-// The first look opens files, so that it tells little of the others; a step comes before each, as no moment is recorded twice.
+// The first look opens files, so that it tells little of the others; a step comes between two, as no moment is recorded twice.
 Real Run::try_looks(Watcher& watcher) {
   std::vector<Real> taken;
   for (int look = 0; look < 4; ++look) {
-    step();
+    if (look > 0) {
+      if (over()) break;
+      step();
+    }
     const auto start = Clock::now();
+    complete();
     derived_now_.clear();
     derive_for(watcher);
     blaming(watcher, moment_, [&] { watcher.look(*this); });
     taken.push_back(std::chrono::duration<Real>(Clock::now() - start).count());
   }
-  taken.erase(taken.begin());
+  if (taken.size() > 1) taken.erase(taken.begin());
   std::sort(taken.begin(), taken.end());
-  return taken[1];
+  return taken[taken.size() / 2];
 }
 
 // Median over blocks of a twentieth of the time: whatever else the machine does now and then does not count.

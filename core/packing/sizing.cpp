@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/domain/domain.hpp"
 #include "core/packing/even_points.hpp"
 #include "core/packing/insertion.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 // between 5 and 100 elements across.
 constexpr Real bulk_density = 0.65;
 constexpr Real empty_layer = 0.15;
-
-constexpr Real most_elements = 1e8;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
 
@@ -53,7 +52,7 @@ void check(const Request& q) {
   if (!q.count && !q.mean_radius) refuse("neither the count nor the mean radius of the elements is given");
   if (q.count && *q.count < 1) refuse(text("the count of elements must be at least 1, got ", *q.count));
   if (q.count && Real(*q.count) > most_elements)
-    refuse(text("the count of elements must be at most 1e8, got ", *q.count));
+    refuse(text("the count of elements must be at most ", most_elements, ", got ", *q.count));
   if (q.mean_radius && !(std::isfinite(*q.mean_radius) && *q.mean_radius > 0))
     refuse(text("the mean radius must be positive, got ", *q.mean_radius));
   if (q.tries < 1) refuse(text("the number of tries must be at least 1, got ", q.tries));
@@ -75,7 +74,7 @@ Sizing from_mean_radius(const Request& q) {
   const Real count = bulk_density * room / (4.0 / 3 * std::numbers::pi * R * R * R * mean_cube(q.dispersion));
   if (count > most_elements)
     refuse(text("elements of mean radius ", R, " would number ", count,
-                "; at most 1e8 are possible: enlarge the radius"));
+                "; at most ", most_elements, " are possible: enlarge the radius"));
   if (count < 0.5)
     throw PackingFailure(
         "the obstacles leave no room for an element: remove some, or make the mean radius smaller");

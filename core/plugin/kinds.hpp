@@ -97,7 +97,7 @@ class BondLaw : public Plugin {
   virtual Real stored_energy(const Domain& domain, const BondTable& table) const = 0;
   /// Energy that the law itself has taken for good [J].
   virtual Real dissipated_energy(const Domain&, const BondTable&) const { return 0; }
-  /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2).
+  /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2). Asked by several threads at once.
   virtual Matrix12 tangent(const Domain& domain, const BondTable& table, Index row) const = 0;
   /// True if the tangent has rotational parts.
   virtual bool turns() const { return true; }
@@ -140,7 +140,7 @@ class Load : public Plugin {
   /// Adds forces, at every evaluation.
   virtual void push(Domain&, const Moment&) {}
   /// After every accepted step: accumulates the work of `push`. Velocities and spins stand for the end of the step where the
-  /// load declares that it reads them.
+  /// load declares that it `Reads` them (`Keeps` does not count), or a derived field that is found from them.
   virtual void account(const Domain&, const Moment&) {}
 };
 

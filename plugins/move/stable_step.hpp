@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <limits>
 
@@ -50,14 +51,22 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
   ElasticNetwork network(domain.size());
   network.resize(bonds);
   const auto position = domain.elements().column("position").view<Vec3>();
-#pragma omp parallel for schedule(dynamic) if (parts.size() > 1)
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& [law, table, chunk, begin] = parts[p];
+  const auto ask = [&](const Part& part) {
+    const auto& [law, table, chunk, begin] = part;
     for (Index b = chunk.begin; b < chunk.live_end; ++b) {
       const Index i = table->first()[b], j = table->second()[b];
       network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*table, b, Vec3(position[j] - position[i])));
     }
-  }
+  };
+  std::vector<std::exception_ptr> failed(parts.size());  // nothing may be thrown across the end of a parallel region
+#pragma omp parallel for schedule(dynamic) if (parts.size() > 1)
+  for (std::size_t p = 0; p < parts.size(); ++p) try {
+      ask(parts[p]);
+    } catch (...) {
+      failed[p] = std::current_exception();
+    }
+  for (const std::exception_ptr& failure : failed)
+    if (failure) std::rethrow_exception(failure);
   if (network.bonds() == 0) return {};
   const StableStep found = stable_step(network, mobility, 1);
   StepLimit limit{found.dt, ""};

@@ -53,6 +53,7 @@ class Verlet final : public Mover {
   std::string limited_by() const override { return step_.by; }
 
   void prepare(Workings& w, bool resumed) override {
+    behind_ = false;
     count_ = w.domain().size();
     position_ = w.domain().elements().column("position").view<Vec3>();
     if (!resumed) gripped[0] = static_cast<Real>(w.moment().stage_step);
@@ -110,9 +111,9 @@ class Verlet final : public Mover {
   void complete(Workings& w) override {
     if (!behind_) return;
     const VerletRows rows = verlet(w);
+    behind_ = false;
     stop_if(w, rows::any_of(count_, [&](const auto& at) { return any(rows.complete(at)); }));
     grips_.after_correct(w, places(), turns());
-    behind_ = false;
   }
 
   void energy(EnergySink& sink) const override {

@@ -111,7 +111,7 @@ Vector12 by_shift(const BeamRest<Real>& rest, const Pair& p) {
   const auto vector = [](const Vec3& v) { return Vec<T>(v.cast<T>()); };
   const BeamRest<T> same{vector(rest.axis), number(rest.length), number(rest.axial), number(rest.bending), number(rest.torsion)};
   const BeamShift<Real> shift = beam_shift(rest, p.d(), p.q1, p.q2);
-  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved), vector(shift.normal), {number(shift.turn.w), vector(shift.turn.v)}});
+  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved), number(shift.along), vector(shift.normal), {number(shift.turn.w), vector(shift.turn.v)}});
   return generalised(Wrench<Real>{w.force.template cast<Real>(), w.torque1.template cast<Real>(), w.torque2.template cast<Real>()});
 }
 
@@ -135,6 +135,21 @@ TEST(beam, keeps_its_digits_in_single_precision_however_small_the_strain_and_lar
       const Pair p = moved_rigidly(strained(random, rest, size), random_rotation(random), random_vector(random, 3));
       const Vector12 expected = by_shift<Real>(rest, p);
       EXPECT_LT((by_shift<float>(rest, p) - expected).norm(), 1e-6 * expected.norm()) << size;
+    }
+}
+
+// A slender beam is far stiffer along than across: what is along must not be found from what is across.
+TEST(beam, keeps_its_digits_in_single_precision_where_it_is_slender_and_swings) {
+  Random random(33);
+  for (const Real size : {1e-6, 1e-3, 0.1})
+    for (int trial = 0; trial < 100; ++trial) {
+      const Vec3 d = random_vector(random, 1);
+      const auto rest = round_beam(d, 2.5, 0.3, 0.02 * d.norm());
+      Pair p = strained(random, rest, size);
+      p.x2 = p.x1 + rotate(exp_map(random_vector(random, size)), d);  // as long as it was
+      p = moved_rigidly(p, random_rotation(random), Vec3(0, 0, 0));
+      const Vector12 expected = by_shift<Real>(rest, p);
+      EXPECT_LT((by_shift<float>(rest, p) - expected).norm(), 3e-6 * expected.norm()) << size;
     }
 }
 

@@ -1,0 +1,274 @@
+#pragma once
+// What a law sees of the bonds at hand: the numbers of their columns, and their two ends, read from the lines of the elements, to which
+// their forces are added.
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/base/pack.hpp"
+#include "core/domain/domain.hpp"
+#include "core/mechanics/lane.hpp"
+#include "core/mechanics/rotation.hpp"
+#include "core/mechanics/wrench.hpp"
+
+namespace beadwork {
+
+template <class T>
+struct Ends {
+  Vec<T> apart;           ///< x2 - x1 [m]
+  Quaternion<T> q1, q2;   ///< where the law turns
+  Vec<T> v1, v2, w1, w2;  ///< velocities and spins, where the law reads them
+};
+
+template <class Law>
+constexpr bool moves() {
+  if constexpr (requires { Law::moves; }) return Law::moves;
+  return false;
+}
+
+struct Pass {
+  bool settle = false;
+  bool sections = false;
+  bool single = false;
+};
+
+/// One bond. Columns of a bond table lie plane by plane, so a row's number stands at a fixed distance from the base.
+struct One {
+  using Number = Real;
+  Index row = 0;
+  bool* flagged = nullptr;
+
+  [[gnu::always_inline]] Real operator()(const View<const Real>& column) const { return number(column.base()); }
+  [[gnu::always_inline]] Vec3 operator()(const View<const Vec3>& column) const {
+    const std::byte* base = column.base();
+    return {number(base), number(base + column.plane()), number(base + 2 * column.plane())};
+  }
+  [[gnu::always_inline]] Quat operator()(const View<const Quat>& column) const {
+    const std::byte* base = column.base();
+    const std::size_t plane = column.plane();
+    return {number(base), Vec3(number(base + plane), number(base + 2 * plane), number(base + 3 * plane))};
+  }
+  [[gnu::always_inline]] void store(const View<Real>& column, Real value) const { column[row] = value; }
+  void store(const View<Vec3>& column, const Vec3& value) const { column.set(row, value); }
+  [[gnu::always_inline]] void flag(bool mask) const { *flagged |= mask; }
+
+ private:
+  [[gnu::always_inline]] Real number(const std::byte* base) const { return reinterpret_cast<const Real*>(base)[row]; }
+};
+
+/// As many bonds as a pack has lanes: rows `row`, row + 1, ...
+template <int W>
+struct Several {
+  using Number = Pack<W>;
+  Index row = 0;
+  bool* flagged = nullptr;
+
+  [[gnu::always_inline]] Pack<W> operator()(const View<const Real>& column) const { return numbers(column.base()); }
+  [[gnu::always_inline]] Vec<Pack<W>> operator()(const View<const Vec3>& column) const {
+    const std::byte* base = column.base();
+    return {numbers(base), numbers(base + column.plane()), numbers(base + 2 * column.plane())};
+  }
+  [[gnu::always_inline]] Quaternion<Pack<W>> operator()(const View<const Quat>& column) const {
+    const std::byte* base = column.base();
+    const std::size_t plane = column.plane();
+    return {numbers(base), {numbers(base + plane), numbers(base + 2 * plane), numbers(base + 3 * plane)}};
+  }
+  [[gnu::always_inline]] void store(const View<Real>& column, const Pack<W>& value) const { value.store(&column[row]); }
+  [[gnu::always_inline]] void store(const View<Vec3>& column, const Vec<Pack<W>>& value) const {
+    for (int c = 0; c < 3; ++c) value[c].store(&column.at(row, c));
+  }
+  template <class M>
+  [[gnu::always_inline]] void flag(const M& mask) const {
+    *flagged |= any(mask);
+  }
+
+ private:
+  [[gnu::always_inline]] Pack<W> numbers(const std::byte* base) const { return Pack<W>::load(reinterpret_cast<const Real*>(base) + row); }
+};
+
+/// The lines of the elements that the loop reads and adds to: position and orientation share one, velocity and spin another,
+/// force and torque a third.
+class ElementLines {
+ public:
+  static ElementLines of(const Domain& domain) {
+    const auto base = [&](const char* name) {
+      const Column* column = domain.elements().find(name);
+      return column ? column->base() : nullptr;
+    };
+    ElementLines lines;
+    lines.position_ = base("position");
+    lines.orientation_ = base("orientation");
+    lines.force_ = base("force");
+    lines.torque_ = base("torque");
+    lines.velocity_ = base("velocity");
+    lines.spin_ = base("spin");
+    if (const Column* velocity = domain.elements().find("velocity")) lines.motion_ = velocity->stride();
+    lines.pose_ = domain.elements().column("position").stride();
+    if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
+    lines.far_ = static_cast<std::size_t>(domain.size()) * (lines.pose_ + lines.load_) > near;
+    return lines;
+  }
+
+  /// What a law says of itself must fit what its plugin asked for. Throws std::logic_error.
+  template <class Law>
+  void require() const {
+    const auto beside = [](const std::byte* first, const std::byte* second) { return first && second == first + 3 * sizeof(Real); };
+    if (!position_ || !force_) throw std::logic_error("a bond law reads position and adds to force");
+    if (torque_ && !beside(force_, torque_)) throw std::logic_error("force and torque share a line, and begin it");
+    if (Law::turns && !(beside(position_, orientation_) && torque_))
+      throw std::logic_error("a bond law that turns reads orientation and adds to torque");
+    if (moves<Law>() && !(velocity_ && (!Law::turns || beside(velocity_, spin_))))
+      throw std::logic_error("a bond law that moves reads velocity, and spin where it turns");
+  }
+
+  template <class Law>
+  [[gnu::always_inline]] Ends<Real> ends(Index i, Index j) const {
+    const Real *x1 = at(position_, i, pose_), *x2 = at(position_, j, pose_);
+    Ends<Real> ends;
+    ends.apart = {x2[0] - x1[0], x2[1] - x1[1], x2[2] - x1[2]};
+    if constexpr (Law::turns) {
+      const Real *q1 = at(orientation_, i, pose_), *q2 = at(orientation_, j, pose_);
+      ends.q1 = {q1[0], {q1[1], q1[2], q1[3]}};
+      ends.q2 = {q2[0], {q2[1], q2[2], q2[3]}};
+    }
+    if constexpr (moves<Law>()) {
+      const Real *v1 = at(velocity_, i, motion_), *v2 = at(velocity_, j, motion_);
+      ends.v1 = {v1[0], v1[1], v1[2]};
+      ends.v2 = {v2[0], v2[1], v2[2]};
+      if constexpr (Law::turns) {
+        ends.w1 = {v1[3], v1[4], v1[5]};
+        ends.w2 = {v2[3], v2[4], v2[5]};
+      }
+    }
+    return ends;
+  }
+
+  /// Adds the wrench, or takes it off again (`sign` -1), at the rows of the force line of its two ends.
+  template <bool turns>
+  [[gnu::always_inline]] void add(Index i, Index k, const Wrench<Real>& w, Real sign = 1) const {
+    const std::size_t at_i = static_cast<std::size_t>(i) * load_;
+    const std::size_t at_k = static_cast<std::size_t>(k) * load_;
+    add_to(force_ + at_i, w.force, -sign);
+    add_to(force_ + at_k, w.force, sign);
+    if constexpr (turns) {
+      add_to(torque_ + at_i, w.torque1, sign);
+      add_to(torque_ + at_k, w.torque2, sign);
+    }
+  }
+
+  /// As above for the bonds of several lanes, whose ends stand at i[0], i[1], ... and j[0], j[1], ...
+  template <class Law, int W>
+  [[gnu::always_inline]] Ends<Pack<W>> ends(const Index* i, const Index* j) const {
+    const auto line = [](std::byte* base, std::size_t stride, const Index* of, int half) {
+      return pack::fetch<W>([=](int lane) { return at(base, of[lane], stride) + 4 * half; });
+    };
+    Ends<Pack<W>> ends;
+    if constexpr (!Law::turns) {
+      ends.apart = apart<W>(i, j);
+    } else {  // x y z qw | qx qy qz
+      const auto a = line(position_, pose_, i, 0);
+      const auto b = line(position_, pose_, j, 0);
+      ends.apart = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+      const auto c = line(position_, pose_, i, 1);
+      const auto d = line(position_, pose_, j, 1);
+      ends.q1 = {a[3], {c[0], c[1], c[2]}};
+      ends.q2 = {b[3], {d[0], d[1], d[2]}};
+    }
+    if constexpr (moves<Law>()) {  // vx vy vz wx | wy wz
+      const auto v = line(velocity_, motion_, i, 0);
+      const auto u = line(velocity_, motion_, j, 0);
+      ends.v1 = {v[0], v[1], v[2]};
+      ends.v2 = {u[0], u[1], u[2]};
+      if constexpr (Law::turns) {
+        const auto w = line(velocity_, motion_, i, 1);
+        const auto z = line(velocity_, motion_, j, 1);
+        ends.w1 = {v[3], w[0], w[1]};
+        ends.w2 = {u[3], z[0], z[1]};
+      }
+    }
+    return ends;
+  }
+
+  /// Lines that are more than a cache holds are worth to be asked for early.
+  bool far() const { return far_; }
+  template <int W>
+  [[gnu::always_inline]] void prefetch(const Index* j, const Index* k) const {
+    for (int lane = 0; lane < W; ++lane) {
+      __builtin_prefetch(at(position_, j[lane], pose_));
+      __builtin_prefetch(at(force_, k[lane], load_), 1);
+    }
+  }
+
+  /// Lane by lane, in the order of the bonds: each sum takes its terms as the scalar loop adds them.
+  template <bool turns, int W>
+  [[gnu::always_inline]] void add(const Index* i, const Index* k, const Wrench<Pack<W>>& w) const {
+    const Vec<Pack<W>>& f = w.force;
+    if constexpr (turns && W == 8) {  // whole lines: fx fy fz tx ty tz - -
+      const Pack<W> nothing(-0.0);    // x + (-0.0) is x, whatever the sign of a zero
+      const auto line1 = pack::rows_of_eight<W>({-f[0], -f[1], -f[2], w.torque1[0], w.torque1[1], w.torque1[2], nothing, nothing});
+      const auto line2 = pack::rows_of_eight<W>({f[0], f[1], f[2], w.torque2[0], w.torque2[1], w.torque2[2], nothing, nothing});
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        add_to(at(force_, i[lane], load_), line1[lane]);
+        add_to(at(force_, k[lane], load_), line2[lane]);
+      }
+    } else if constexpr (turns) {   // fx fy fz tx | ty tz - -
+      const Pack<W> nothing(-0.0);
+      const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], w.torque1[0]});
+      const auto low2 = pack::rows<W>({f[0], f[1], f[2], w.torque2[0]});
+      const auto high1 = pack::rows<W>({w.torque1[1], w.torque1[2], nothing, nothing});
+      const auto high2 = pack::rows<W>({w.torque2[1], w.torque2[2], nothing, nothing});
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        add_to(at(force_, i[lane], load_), low1[lane], high1[lane]);
+        add_to(at(force_, k[lane], load_), low2[lane], high2[lane]);
+      }
+    } else {
+      const auto low = pack::rows<W>({f[0], f[1], f[2], Pack<W>(0)});
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        take_from(at(force_, i[lane], load_), low[lane]);
+        add_to(at(force_, k[lane], load_), low[lane]);
+      }
+    }
+  }
+
+  /// Lines whole, as nothing but sums of forces and torques stands in them.
+  void clear(Index begin, Index end) const {
+    std::memset(force_ + static_cast<std::size_t>(begin) * load_, 0, static_cast<std::size_t>(end - begin) * load_);
+  }
+
+ private:
+  [[gnu::always_inline]] static void add_to(std::byte* base, const Vec3& v, Real sign) {
+    Real* sum = reinterpret_cast<Real*>(base);
+    sum[0] += sign * v[0];
+    sum[1] += sign * v[1];
+    sum[2] += sign * v[2];
+  }
+
+  [[gnu::always_inline]] static Real* at(std::byte* base, Index row, std::size_t stride) {
+    return reinterpret_cast<Real*>(base + static_cast<std::size_t>(row) * stride);
+  }
+  /// x2 - x1 where nothing else of the two lines is wanted: subtracted before it is transposed, so that one transposition does.
+  template <int W>
+  [[gnu::always_inline]] Vec<Pack<W>> apart(const Index* i, const Index* j) const {
+    const auto lane = [&](int k) { return Quad::load(at(position_, j[k], pose_)) - Quad::load(at(position_, i[k], pose_)); };
+    std::array<Pack<W>, 4> rows;
+    for (int k = 0; k < 4; ++k) rows[static_cast<std::size_t>(k)] = pack::join<W>(lane(k), W == 4 ? Quad(0) : lane(k + 4));
+    const auto d = pack::transpose<W>(rows);
+    return {d[0], d[1], d[2]};
+  }
+
+  template <int W>
+  [[gnu::always_inline]] static void add_to(Real* line, const Pack<W>& low) { (Pack<W>::load(line) + low).store(line); }
+  [[gnu::always_inline]] static void take_from(Real* line, const Quad& low) { (Quad::load(line) - low).store(line); }
+  [[gnu::always_inline]] static void add_to(Real* line, const Quad& low, const Quad& high) {
+    add_to(line, low);
+    add_to(line + 4, high);
+  }
+
+  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
+  std::size_t pose_ = 0, motion_ = 0, load_ = 0;
+  bool far_ = false;
+  static constexpr std::size_t near = 16 << 20;
+};
+
+}  // namespace beadwork
