@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """What a knob costs and what it buys: wall time against error, for the decks of xml-cases. It reports; it judges nothing.
 
 Usage: tests/speed/knobs.py BEADWORK [case ...]      cases: bar, cantilever, dcb, notched-bar; all of them if none is named
