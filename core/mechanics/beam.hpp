@@ -71,7 +71,7 @@ template <class T>
 template <class T>
 struct BeamShift {
   Vec<T> moved;        ///< d - L n_1 [m]
-  T along;             ///< of that along n_1 [m]: far less than the whole, where a slender beam bends
+  T grown;             ///< l^2 - L^2 [m^2]: far less than its two parts, where a slender beam swings
   Vec<T> normal;       ///< n_1
   Quaternion<T> turn;  ///< of end 2 against end 1
 };
@@ -80,7 +80,7 @@ template <class T>
 [[gnu::always_inline]] inline BeamShift<T> beam_shift(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
   const Vec<T> n1 = rotate(q1, rest.axis);
   const Vec<T> moved = d - rest.length * n1;
-  return {moved, dot(n1, moved), n1, relative(q1, q2)};
+  return {moved, dot(moved, moved + (rest.length + rest.length) * n1), n1, relative(q1, q2)};
 }
 
 /// The same forces and torques from that: no large number is taken from another, so that single precision keeps its digits
@@ -89,10 +89,9 @@ template <class T>
 [[gnu::always_inline]] inline Wrench<T> beam_wrench(const BeamRest<T>& rest, const BeamShift<T>& shift) {
   const Vec<T>&n1 = shift.normal, &u = shift.moved;
   const T L = rest.length;
-  const T grown = (L + L) * shift.along + dot(u, u);  // l^2 - L^2
-  const T l = sqrt(L * L + grown);
+  const T l = sqrt(L * L + shift.grown);
   const T both = T(1) / (l * (l + L));  // one division for two
-  const T stretch = grown * (both * l);  // l - L
+  const T stretch = shift.grown * (both * l);  // l - L
   const T inverse = both * (l + L);
   const Vec<T> swing = inverse * (u - stretch * n1);  // e - n_1
   const Vec<T> e = n1 + swing;

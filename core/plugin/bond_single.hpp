@@ -43,14 +43,14 @@ struct SeveralSingle {
 };
 
 [[gnu::always_inline]] inline BeamShift<float> narrow(const BeamShift<Real>& s) {
-  return {s.moved.cast<float>(), static_cast<float>(s.along), s.normal.cast<float>(), {static_cast<float>(s.turn.w), s.turn.v.cast<float>()}};
+  return {s.moved.cast<float>(), static_cast<float>(s.grown), s.normal.cast<float>(), {static_cast<float>(s.turn.w), s.turn.v.cast<float>()}};
 }
 template <int W>
 [[gnu::always_inline]] inline BeamShift<Pack<2 * W, float>> narrow(const BeamShift<Pack<W>>& a, const BeamShift<Pack<W>>& b) {
   const auto vector = [](const Vec<Pack<W>>& u, const Vec<Pack<W>>& v) __attribute__((always_inline)) {
     return Vec<Pack<2 * W, float>>{pack::narrow(u[0], v[0]), pack::narrow(u[1], v[1]), pack::narrow(u[2], v[2])};
   };
-  return {vector(a.moved, b.moved), pack::narrow(a.along, b.along), vector(a.normal, b.normal), {pack::narrow(a.turn.w, b.turn.w), vector(a.turn.v, b.turn.v)}};
+  return {vector(a.moved, b.moved), pack::narrow(a.grown, b.grown), vector(a.normal, b.normal), {pack::narrow(a.turn.w, b.turn.w), vector(a.turn.v, b.turn.v)}};
 }
 inline Wrench<Real> widen(const Wrench<float>& w) { return {w.force.cast<Real>(), w.torque1.cast<Real>(), w.torque2.cast<Real>()}; }
 template <bool upper, int W>

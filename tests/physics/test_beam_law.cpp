@@ -111,7 +111,7 @@ Vector12 by_shift(const BeamRest<Real>& rest, const Pair& p) {
   const auto vector = [](const Vec3& v) { return Vec<T>(v.cast<T>()); };
   const BeamRest<T> same{vector(rest.axis), number(rest.length), number(rest.axial), number(rest.bending), number(rest.torsion)};
   const BeamShift<Real> shift = beam_shift(rest, p.d(), p.q1, p.q2);
-  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved), number(shift.along), vector(shift.normal), {number(shift.turn.w), vector(shift.turn.v)}});
+  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved), number(shift.grown), vector(shift.normal), {number(shift.turn.w), vector(shift.turn.v)}});
   return generalised(Wrench<Real>{w.force.template cast<Real>(), w.torque1.template cast<Real>(), w.torque2.template cast<Real>()});
 }
 

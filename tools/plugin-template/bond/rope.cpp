@@ -50,7 +50,7 @@ class Rope final : public BondLawOf<RopeLaw> {
       length[row] = (position[table.second()[row]] - position[table.first()[row]]).norm();
   }
 
-  // For the time step and for static movers: the stiffest that the bond can become.
+  // For the time step and for static movers: the stiffest that the bond can become. Several threads ask at once.
   Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
     const Vec3 apart = position[table.second()[row]] - position[table.first()[row]];
     return spring_stiffness({length[row], *stiffness}, apart);
