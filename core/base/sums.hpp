@@ -12,7 +12,7 @@ namespace beadwork {
 /// Sum of block(0) ... block(blocks - 1), in this order, whichever thread finds each.
 template <class Block>
 Real sum_of_blocks(Index blocks, const Block& block) {
-  if (blocks == 1) return Real(0) + block(0);
+  if (blocks == 1) return Real(0) + block(0);  // as the sum of one part: never -0
   std::vector<Real> part(static_cast<std::size_t>(blocks), 0);
   each_shared(blocks, [&](Index b) { part[static_cast<std::size_t>(b)] = block(b); });
   Real total = 0;

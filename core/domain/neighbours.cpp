@@ -27,7 +27,6 @@ struct Cloud {
   Rule rule;
   Vec3 low = zero<Vec3>();
   Real extent = 0;
-
 };
 
 /// An element where its neighbours in space are also its neighbours in memory.

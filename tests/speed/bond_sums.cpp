@@ -4,6 +4,8 @@
 //   chunks     as the core does it: each chunk of bonds adds to its own elements, and to halo rows that are added afterwards
 //   stored     forces of each bond are stored, then each element gathers those of its bonds
 //   both_ends  each bond is computed twice, once for either end, so that an element's bonds stand together
+//
+// And chunks_without_law, which fetches the ends and adds something to them: what a bond costs besides its law.
 
 #include <benchmark/benchmark.h>
 #include <omp.h>
@@ -34,6 +36,21 @@ void chunks(benchmark::State& state) {
     bond_loop::run<Pass{}>(scene.law, *scene.table, scene.domain, true);
     scene.domain.gather();
   }
+  report(state, scene);
+}
+
+struct NoLaw {
+  static constexpr bool turns = true;
+  template <Pass pass, class At, class T>
+  [[gnu::always_inline]] Wrench<T> act(const At&, const Ends<T>& ends) const {
+    return {copy(ends.apart), copy(ends.q1.v), copy(ends.q2.v)};
+  }
+};
+
+void chunks_without_law(benchmark::State& state) {
+  omp_set_num_threads(static_cast<int>(state.range(0)));
+  Scene scene;
+  for (auto _ : state) bond_loop::run<Pass{}>(NoLaw{}, *scene.table, scene.domain, true);
   report(state, scene);
 }
 
@@ -172,6 +189,7 @@ void both_ends(benchmark::State& state) {
 }
 
 BENCHMARK(chunks)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
+BENCHMARK(chunks_without_law)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
 BENCHMARK(stored)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
 BENCHMARK(both_ends)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
 
