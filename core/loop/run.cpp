@@ -59,13 +59,12 @@ void Run::go_through_stages() {
     moment_.stage = static_cast<int>(s);
     const bool resumed = options_.resume && s == first;
     enter(stage(), resumed);
-    const auto start = Clock::now();
-    const Real before = figures_.loop_seconds;
+    auto from = Clock::now();
     while (!over()) {
       step();
       const auto now = Clock::now();
-      figures_.loop_seconds = before + std::chrono::duration<Real>(now - start).count();
-      save_now_and_then(now);
+      figures_.loop_seconds += std::chrono::duration<Real>(now - from).count();
+      from = save_now_and_then(now) ? Clock::now() : now;  // a checkpoint is no part of the loop
     }
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
     tell_of_missed_moments();

@@ -102,7 +102,7 @@ class Run final : private Workings, private Sight {
   void restore_state();
   void save();
   void load();
-  void save_now_and_then(Clock::time_point now);
+  bool save_now_and_then(Clock::time_point now);  ///< whether it saved
   void write_summary();
   std::string summary() const;
   void close(const std::string& status, const std::string& reason);

@@ -121,17 +121,18 @@ void Run::load() {
   options_.say(fmt::format("resumed at step {}", moment_.step));
 }
 
-void Run::save_now_and_then(Clock::time_point now) {
+bool Run::save_now_and_then(Clock::time_point now) {
   if (std::chrono::duration<Real>(now - shown_).count() >= 1) {
     shown_ = now;
     show_progress();
   }
   const Real patience =
       has_checkpoint_ ? options_.checkpoint_seconds : std::min(options_.first_checkpoint_seconds, options_.checkpoint_seconds);
-  if (std::chrono::duration<Real>(now - saved_).count() < patience) return;
+  if (std::chrono::duration<Real>(now - saved_).count() < patience) return false;
   save();
   reserve_room();
   write_summary();
+  return true;
 }
 
 // Holds the room of the next checkpoint, where its part file will stand: when the disk is full it can still be written.
