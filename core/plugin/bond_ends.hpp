@@ -106,7 +106,7 @@ class ElementLines {
     if (const Column* velocity = domain.elements().find("velocity")) lines.motion_ = velocity->stride();
     lines.pose_ = domain.elements().column("position").stride();
     if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
-    lines.far_ = static_cast<std::size_t>(domain.size()) * (lines.pose_ + lines.load_) > near;
+    lines.far_ = static_cast<std::size_t>(domain.size()) * lines.pose_ > near;
     return lines;
   }
 
@@ -190,14 +190,12 @@ class ElementLines {
     return ends;
   }
 
-  /// Lines that are more than a cache holds are worth to be asked for early.
+  /// Places that are more than a core's own cache holds are worth to be asked for early.
   bool far() const { return far_; }
+  /// Asks for the lines that `ends` will read of j[0], j[1], ...
   template <int W>
-  [[gnu::always_inline]] void prefetch(const Index* j, const Index* k) const {
-    for (int lane = 0; lane < W; ++lane) {
-      __builtin_prefetch(at(position_, j[lane], pose_));
-      __builtin_prefetch(at(force_, k[lane], load_), 1);
-    }
+  [[gnu::always_inline]] void prefetch(const Index* j) const {
+    for (int lane = 0; lane < W; ++lane) __builtin_prefetch(at(position_, j[lane], pose_));
   }
 
   /// Lane by lane, in the order of the bonds: each sum takes its terms as the scalar loop adds them.
@@ -268,7 +266,7 @@ class ElementLines {
   std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
   std::size_t pose_ = 0, motion_ = 0, load_ = 0;
   bool far_ = false;
-  static constexpr std::size_t near = 16 << 20;
+  static constexpr std::size_t near = 2 << 20;
 };
 
 }  // namespace beadwork

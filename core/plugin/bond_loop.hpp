@@ -31,8 +31,9 @@ namespace beadwork {
 
 namespace bond_loop {
 
-/// Bonds whose second ends are fetched while those before them are worked on: first ends come in order, second ends do not.
-inline constexpr Index ahead = 24;
+/// Bonds whose second ends are fetched while those before them are worked on: first ends come in order, second ends do not, and a
+/// processor does not see as far ahead as the next pack.
+inline constexpr Index ahead = 32;
 
 /// The bonds of a chunk, in packs as far as they fill them.
 template <Pass pass, class Law>
@@ -47,7 +48,7 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
   if constexpr (pack_width > 1) {
     constexpr int W = pack_width;
     for (; b + W <= chunk.live_end; b += W) {
-      if (e.far() && b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead, target + b + ahead);
+      if (e.far() && b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead);
       e.add<Law::turns, W>(first + b, target + b, l.template act<pass>(Several<W>{b, &flagged}, e.ends<Law, W>(first + b, second + b)));
     }
   }
@@ -70,7 +71,7 @@ bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines
     constexpr int W = pack_width;
     for (; b + 2 * W <= chunk.live_end; b += 2 * W) {
       const Several<W> low{b, &flagged}, high{b + W, &flagged};
-      if (e.far() && b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead, target + b + ahead);
+      if (e.far() && b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead);
       const auto shift = narrow(l.shift(low, e.ends<Law, W>(first + b, second + b)), l.shift(high, e.ends<Law, W>(first + b + W, second + b + W)));
       const auto wrench = l.template act<pass>(SeveralSingle<W>{low, high}, shift);
       e.add<Law::turns, W>(first + b, target + b, widen<false>(wrench));
