@@ -29,7 +29,7 @@ struct RunOptions {
 struct RunFigures {
   std::string status = "running";
   std::string exit_reason;
-  Real wall_seconds = 0, loop_seconds = 0;
+  Real wall_seconds = 0, loop_seconds = 0;  ///< the loop's are those of steps and looks, without filling and checkpoints
   Real bond_updates = 0;
   std::vector<std::string> packing_reports;  ///< JSON objects
 };
@@ -52,8 +52,8 @@ class Run final : private Workings, private Sight {
   /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved,
   /// as far as the machine lets it.
   void all();
-  /// Instead of all(): fills, bonds, has each watcher look some times, and goes on for some seconds of wall time. What
-  /// watchers record goes to the run's folder, which is of no use afterwards.
+  /// Instead of all(): fills, bonds, goes on for some seconds of wall time, and has each watcher look some times, be it beyond the
+  /// end of the stage. What watchers record goes to the run's folder, which is of no use afterwards.
   Trial trial(Real seconds);
   const RunFigures& figures() const { return figures_; }
 

@@ -55,7 +55,7 @@ void Run::add_state_columns() {
   keep("stage-start", "s", "Time at which the stage began");
   keep("stage-step", "1", "Step at which the stage began");
   keep("bond-updates", "1", "Sum over steps of live bonds");
-  keep("loop-seconds", "s", "Time spent in the loop");
+  keep("loop-seconds", "s", "Time spent in the loop, without checkpoints");
   keep("wall-seconds", "s", "Time spent in all");
   keep("initial-energy", "J", "Energy that was there without any work");
   keep("looks-owed", "1", "Watchers that have not had their turn at this step");

@@ -190,9 +190,9 @@ class ElementLines {
     return ends;
   }
 
-  /// Places that are more than a core's own cache holds are worth to be asked for early.
+  /// From some 2 MB of places on it pays to ask for them early (measured: docs/performance.md).
   bool far() const { return far_; }
-  /// Asks for the lines that `ends` will read of j[0], j[1], ...
+  /// Asks for the places of j[0], j[1], ...
   template <int W>
   [[gnu::always_inline]] void prefetch(const Index* j) const {
     for (int lane = 0; lane < W; ++lane) __builtin_prefetch(at(position_, j[lane], pose_));
@@ -266,7 +266,7 @@ class ElementLines {
   std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
   std::size_t pose_ = 0, motion_ = 0, load_ = 0;
   bool far_ = false;
-  static constexpr std::size_t near = 2 << 20;
+  static constexpr std::size_t near = 2 << 20;  // bytes of places
 };
 
 }  // namespace beadwork

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # How time and memory grow with the number of elements: the lattice of xml-cases/speed/lattice.xml in four sizes, the packing
-# of bar.xml in as many as are named. It reports; it judges nothing. A line gives the median of three runs.
+# of bar.xml in as many as are named. It reports; it judges nothing. A line is the run with the
+# median rate of three; besides the loop there are filling, the time step, and checkpoints, of which a run of more than a minute has two.
 # Usage: tests/speed/scale.sh [build folder [counts of packed elements ...]]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -17,7 +18,7 @@ run() { # threads, deck and settings -> seconds in all, seconds in the loop, bon
   echo "$(number wall_seconds) $(number loop_seconds) $(number bond_updates_per_second) $(tail -n 1 "$out/peak")"
 }
 
-printf '%9s %7s  %16s  %18s  %10s\n' elements threads 'ns a bond-step' 's before the loop' 'peak MB'
+printf '%9s %7s  %16s  %18s  %10s\n' elements threads 'ns a bond-step' 's besides the loop' 'peak MB'
 while read -r nx ny nz steps; do
   for threads in 1 2; do
     for k in 1 2 3; do

@@ -20,14 +20,16 @@ constexpr const char* endless = R"(<scene>
   <move><verlet until="1000000000000"/></move>
 </scene>)";
 
-void run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options) {
+RunFigures run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options) {
   Complaints complaints;
   const auto read = read_deck(deck.string(), {}, complaints);
   const Catalogue catalogue = Catalogue::open({});
   const auto scene = Scene::assemble(*read, catalogue, complaints);
   complaints.throw_if_any();
   RunFolder folder = RunFolder::fresh(out, false);
-  Run(*scene, catalogue, folder, options).all();
+  Run run(*scene, catalogue, folder, options);
+  run.all();
+  return run.figures();
 }
 
 TEST(Run, has_a_first_checkpoint_long_before_the_second) {
@@ -43,6 +45,17 @@ TEST(Run, has_a_first_checkpoint_long_before_the_second) {
   testing::kill_during([&] { run_deck(scratch / "deck.xml", scratch / "late", options); }, 1'000'000);
   EXPECT_TRUE(std::filesystem::exists(scratch / "late/summary.json"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "late/checkpoint.h5"));
+}
+
+TEST(Run, does_not_count_checkpoints_among_the_seconds_of_its_loop) {
+  const Scratch scratch;
+  std::string deck = endless;
+  testing::write_text(scratch / "deck.xml", deck.replace(deck.find("1000000000000"), 13, "200"));
+  RunOptions options;
+  options.first_checkpoint_seconds = options.checkpoint_seconds = 0;  // one after each step: milliseconds beside microseconds
+  const RunFigures figures = run_deck(scratch / "deck.xml", scratch / "out", options);
+  EXPECT_GT(figures.loop_seconds, 0);
+  EXPECT_LT(figures.loop_seconds, 0.2 * figures.wall_seconds);
 }
 
 }  // namespace
