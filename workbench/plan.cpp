@@ -9,7 +9,9 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/loop/forecast.hpp"
 #include "core/loop/run.hpp"
+#include "workbench/progress.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -78,7 +80,7 @@ std::string times(const Scene& scene, const Trial& trial, int threads) {
   text += "\n";
   Real total = 0;
   for (const Stage& stage : scene.stages) {
-    const auto steps = steps_of(stage, trial.time_step);
+    const auto steps = steps_of(*stage.until, stage.constraints(), 0, trial.time_step);
     if (!steps) {
       text += fmt::format("  stage '{}': its conditions alone tell when it ends\n", stage.name);
       continue;
@@ -105,40 +107,20 @@ int plan(const PlanArguments& arguments) {
   RunFolder folder = RunFolder::fresh(scratch.path() / "run", false);
   RunOptions options;
   options.threads = arguments.threads;
-  options.warn = [](const std::string& warning) { std::fprintf(stderr, "warning: %s\n", warning.c_str()); };
+  Progress progress([](const std::string&) {});
+  options.warn = [&](const std::string& warning) {
+    progress.hide();
+    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  };
+  options.progress = [&](const Headway& headway) { progress.show(headway); };
   Run run(scene, loaded.catalogue, folder, options);
   const Trial trial = run.trial(2);
+  progress.hide();
   std::printf("%s%s", counts(*scene.domain).c_str(), times(scene, trial, arguments.threads).c_str());
   return 0;
 }
 
-// The time at which what is driven has gone that far: it never turns back before, so bisection finds it.
-std::optional<Real> time_of_displacement(const std::vector<Constraint>& constraints, Real wanted, Real time_step) {
-  Real late = time_step;
-  while (driven_displacement(constraints, "", 0, late) < wanted) {
-    late *= 2;
-    if (late > 1e12 * time_step) return std::nullopt;
-  }
-  Real early = 0;
-  for (int halving = 0; halving < 100; ++halving) {
-    const Real middle = 0.5 * (early + late);
-    (driven_displacement(constraints, "", 0, middle) < wanted ? early : late) = middle;
-  }
-  return late;
-}
-
 }  // namespace
-
-std::optional<Real> steps_of(const Stage& stage, Real time_step) {
-  std::optional<Real> fewest;
-  const auto note = [&](Real steps) { fewest = std::min(fewest.value_or(steps), steps); };
-  if (stage.until->steps()) note(static_cast<Real>(*stage.until->steps()));
-  if (!(time_step > 0)) return fewest;
-  if (stage.until->time()) note(std::ceil(*stage.until->time() / time_step));
-  if (stage.until->displacement())
-    if (const auto time = time_of_displacement(stage.constraints(), *stage.until->displacement(), time_step)) note(std::ceil(*time / time_step));
-  return fewest;
-}
 
 void add_plan(CLI::App& app, Chosen& chosen) {
   CLI::App* verb = app.add_subcommand("plan", "Says what a deck will do: phases, fields, memory, steps");

@@ -1,7 +1,6 @@
 #pragma once
 // What follows from a deck before it runs.
 
-#include <optional>
 #include <string>
 
 #include "core/loop/scene.hpp"
@@ -10,9 +9,6 @@ namespace beadwork {
 
 /// Phases, fields, columns with their bytes, and what is not needed: all that is known without filling.
 std::string plan_text(const Scene& scene);
-
-/// Steps of that length after which the stage ends at the latest; nothing if only its conditions can tell.
-std::optional<Real> steps_of(const Stage& stage, Real time_step);
 
 /// Bytes of one row of a table, with what its alignment costs.
 std::size_t row_bytes(const Table& table, On on);

@@ -3,7 +3,6 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -11,6 +10,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/version.hpp"
+#include "workbench/progress.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -27,36 +27,6 @@ struct RunArguments {
   bool overwrite = false, resume = false, quiet = false;
   int threads = 0;
   double checkpoint_minutes = 10;
-};
-
-// On a terminal one line that is written over; in a log one line a minute.
-class Progress {
- public:
-  explicit Progress(spdlog::logger& log) : log_(log) {}
-
-  void operator()(double fraction, const std::string& text) {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - began_).count();
-    std::string line = fmt::format("{:3.0f} %  {}", 100 * fraction, text);
-    if (fraction > 0.001) line += fmt::format(", {:.0f} s to go", seconds * (1 - fraction) / fraction);
-    if (terminal_) {
-      std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
-      shown_ = true;
-    } else if (std::chrono::duration<double>(now - last_).count() >= 60) {
-      last_ = now;
-      log_.info(line);
-    }
-  }
-  void end() const {
-    if (shown_) std::fprintf(stderr, "\r\x1b[K");
-  }
-
- private:
-  spdlog::logger& log_;
-  const bool terminal_ = isatty(STDERR_FILENO) == 1;
-  bool shown_ = false;
-  const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last_ = began_;
 };
 
 std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder, const RunArguments& arguments) {
@@ -77,16 +47,22 @@ int run(const RunArguments& arguments) {
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
   const auto log = make_log(folder, arguments);
-  Progress progress(*log);
+  Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.resume = arguments.resume;
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.interrupt = &interrupted;
-  options.say = [&](const std::string& line) { log->info(line); };
-  options.warn = [&](const std::string& line) { log->warn("warning: " + line); };
-  options.progress = [&](double fraction, const std::string& text) { progress(fraction, text); };
+  options.say = [&](const std::string& line) {
+    progress.hide();
+    log->info(line);
+  };
+  options.warn = [&](const std::string& line) {
+    progress.hide();
+    log->warn("warning: " + line);
+  };
+  options.progress = [&](const Headway& headway) { progress.show(headway); };
 
   log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
             loaded.catalogue.instructions(), arguments.out);
@@ -95,15 +71,15 @@ int run(const RunArguments& arguments) {
   try {
     job.all();
   } catch (const Fault& fault) {
-    progress.end();
+    progress.hide();
     log->error("{}", shown(fault));
     return static_cast<int>(fault.code());
   } catch (const std::exception& error) {
-    progress.end();
+    progress.hide();
     log->error("error: {}", error.what());
     return static_cast<int>(ExitCode::machine);
   }
-  progress.end();
+  progress.hide();
   const RunFigures& figures = job.figures();
   log->info("done: {} in {:.1f} s ({:.1f} s in the loop, {:.3g} million bond updates/s)", figures.exit_reason, figures.wall_seconds,
             figures.loop_seconds, figures.loop_seconds > 0 ? 1e-6 * figures.bond_updates / figures.loop_seconds : 0);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 
+#include "core/base/headway.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/curve.hpp"
 #include "core/io/recorder.hpp"
@@ -22,7 +23,7 @@ struct RunOptions {
   const std::atomic<int>* interrupt = nullptr;  ///< not zero: write a checkpoint and stop
   std::function<void(const std::string&)> say = [](const std::string&) {};
   std::function<void(const std::string&)> warn = [](const std::string&) {};
-  std::function<void(Real fraction, const std::string&)> progress = [](Real, const std::string&) {};
+  TellHeadway progress = [](const Headway&) {};
 };
 
 /// What a run did, for summary.json.

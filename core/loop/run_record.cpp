@@ -7,6 +7,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
+#include "core/loop/forecast.hpp"
 #include "core/loop/run_curve.hpp"
 #include "core/loop/summary.hpp"
 #include "core/version.hpp"
@@ -150,16 +151,7 @@ void Run::reserve_room() const {
   }
 }
 
-void Run::show_progress() {
-  const Until& until = *stage().until;
-  const Real time = moment_.time - moment_.stage_start;
-  Real done = 0;
-  if (until.time() && *until.time() > 0) done = std::max(done, time / *until.time());
-  if (until.steps() && *until.steps() > 0) done = std::max(done, static_cast<Real>(moment_.step - moment_.stage_step) / static_cast<Real>(*until.steps()));
-  if (until.displacement() && *until.displacement() > 0) done = std::max(done, driven_displacement(constraints(), "", moment_.stage_start, moment_.time) / *until.displacement());
-  options_.progress(std::min<Real>(done, 1), fmt::format("stage '{}', step {}, time {:.4g} s, {} breaks", stage().name, moment_.step,
-                                                         moment_.time, domain().breaks().breaks.size()));
-}
+void Run::show_progress() { options_.progress(headway_of(scene_, moment_, constraints())); }
 
 Real Run::wall_seconds() const { return wall_before_ + std::chrono::duration<Real>(Clock::now() - began_).count(); }
 

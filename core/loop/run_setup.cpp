@@ -21,6 +21,7 @@ void Run::fill() {
   job.resolve_path = [&](const std::string& path) { return scene_.path_of(path); };
   job.in_progress = &in_progress;
   job.pause = [&] { pause(); };
+  job.progress = options_.progress;
   for (Filler* filler : scene_.fillers) {
     pause();
     if (!filler->after_filling()) filler->fill(domain(), job);

@@ -125,6 +125,10 @@ bool Until::reached(const Moment& moment, std::span<const Constraint> constraint
   return false;
 }
 
+bool Until::is_foreseeable() const {
+  return std::all_of(clauses_.begin(), clauses_.end(), [](const Clause& c) { return c.what == What::mark; });
+}
+
 std::optional<Real> Until::first(Mark::What what) const {
   for (const Clause& c : clauses_)
     if (c.what == What::mark && c.mark.what == what) return c.mark.value;

@@ -41,6 +41,8 @@ class Until {
   std::optional<Real> time() const;
   std::optional<std::int64_t> steps() const;
   std::optional<Real> displacement() const;
+  /// Whether these alone end the stage, and no condition can end it sooner.
+  bool is_foreseeable() const;
 
  private:
   enum class What { mark, watched, condition };

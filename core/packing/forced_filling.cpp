@@ -36,7 +36,7 @@ std::size_t place_waiting(Packing& packing, Real tolerance, Random& random) {
   std::sort(packing.waiting.begin(), packing.waiting.end(),
             std::greater<>());  // the large ones need the best places
   std::vector<Ball> placed;
-  insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000, .pause = packing.pause}, random,
+  insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000, .pause = packing.pause, .tell = packing.tell}, random,
                    packing.waiting, placed);
   for (const Ball& ball : placed) {
     packing.position.push_back(ball.x);
@@ -79,7 +79,7 @@ void place_all(Packing& packing, Real tolerance) {
 
 /// Radii grow or shrink together until the coordination number is that asked, or a little above; or until
 /// elements hardly overlap any more: a packing that holds has a coordination number below which it cannot go.
-void reach_coordination(Crowd& crowd, Real asked) {
+void reach_coordination(Crowd& crowd, Real asked, const Tell& tell) {
   constexpr Real band = 0.03;
   constexpr Real slope = 90;     // recorded: dZ / d(ln R) near Z = 6.2
   constexpr Real hardly = 3e-4;  // mean overlap / (R1 + R2)
@@ -89,6 +89,7 @@ void reach_coordination(Crowd& crowd, Real asked) {
     settle(crowd, neighbours, round == 0 ? 600 : 300, 0.03);
     Z = coordination(crowd, neighbours);
     overlap = overlaps(crowd, neighbours).mean;
+    tell((std::ostringstream() << "coordination " << Z << " of " << asked).str());
     if (Z >= asked && (Z <= asked + band || overlap < hardly)) return;
     if (overlap > most_overlap) break;
     const Real missing = asked + band / 2 - Z;
@@ -110,7 +111,7 @@ void forced_filling(Packing& packing, const ForcedFilling& rule) {
   place_all(packing, rule.tolerance);
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
-  reach_coordination(crowd, rule.coordination);
+  reach_coordination(crowd, rule.coordination, packing.tell);
   put_back(crowd, order, packing);
   packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
 }

@@ -23,10 +23,11 @@ Packing free_filling(const Request& request) {
                   .waiting = draw_radii(request.dispersion, sizing.count, request.seed),
                   .seconds = 0,
                   .warnings = {},
-                  .pause = request.pause};
+                  .pause = request.pause,
+                  .tell = request.tell};
   for (Real& r : packing.waiting) r *= sizing.mean_radius;
 
-  InsertionRule rule{.tries = request.tries, .pause = request.pause};
+  InsertionRule rule{.tries = request.tries, .pause = request.pause, .tell = request.tell};
   if (request.dispersion.spread > wide_spread) {
     std::sort(packing.waiting.begin(), packing.waiting.end(), std::greater<>());
     rule.patience = 100;

@@ -176,8 +176,10 @@ void insert_at_random(InsertionGrid& grid, const Region& region, const Insertion
   // The radii take turns: a large element that finds no room does not hold up the others.
   int failed = 0;
   const bool once = rule.choices == 1 && rule.patience == 1;
-  while (!radii.empty() && failed < rule.tries)
+  while (!radii.empty() && failed < rule.tries) {
+    rule.tell(std::to_string(placed.size()) + " elements placed, " + std::to_string(radii.size()) + " still to be placed");
     (once ? try_each_once : try_each)(grid, region, rule, random, radii, placed, failed);
+  }
 }
 
 }  // namespace beadwork::packing

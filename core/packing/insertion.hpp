@@ -56,6 +56,7 @@ struct InsertionRule {
   int patience = 1;                     ///< goes of an element before the next one's turn
   int tries = 20000;                    ///< ends after so many goes in a row found no place
   std::function<void()> pause = [] {};  ///< called at each element's turn
+  Tell tell = [](const std::string&) {};
 };
 
 /// Tries the radii in turn until all are placed or nothing more fits. Placed balls are appended to `placed`

@@ -28,6 +28,9 @@ struct PackingFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Hears how far a step has come, in words: called now and then.
+using Tell = std::function<void(const std::string&)>;
+
 /// Elements that are already there. They do not move and may overlap one another and the walls.
 struct Obstacles {
   std::vector<Vec3> position;
@@ -46,6 +49,7 @@ struct Request {
   /// Free filling ends after so many failed tries in a row.
   int tries = 20000;
   std::function<void()> pause = [] {};  ///< called now and then: what it throws ends the work
+  Tell tell = [](const std::string&) {};
 };
 
 struct Packing {
@@ -59,6 +63,7 @@ struct Packing {
   Real seconds = 0;
   std::vector<std::string> warnings;
   std::function<void()> pause = [] {};  ///< as in Request
+  Tell tell = [](const std::string&) {};
 };
 
 /// Random sequential insertion without interpenetration, until the count is reached or nothing more fits.

@@ -125,7 +125,7 @@ std::vector<Key> closable(const std::vector<Contact>& contacts, const std::vecto
 
 }  // namespace
 
-Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap) {
+Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap, const std::function<void(Real)>& told) {
   Projected result;
   std::vector<Key> known = overlapping(crowd, neighbours.of(crowd)).keys;
   std::sort(known.begin(), known.end());
@@ -135,6 +135,7 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
     crowd.pause();
     Found found = overlapping(crowd, neighbours.of(crowd));
     result.largest = found.largest;
+    told(found.largest);
     if (found.largest <= overlap || result.rounds == most_rounds) return result;
     std::sort(found.keys.begin(), found.keys.end());
     std::vector<Key> keys;

@@ -1,6 +1,7 @@
 #pragma once
 // From an overlapping arrangement to a near one in which the same contacts just touch.
 
+#include <functional>
 #include <vector>
 
 #include "core/packing/crowd.hpp"
@@ -23,6 +24,7 @@ struct Projected {
 /// change that solves the linear equations converges in a few rounds. A pair that comes to overlap on the way
 /// joins the equations; a contact that opens and cannot be closed, since too many others hold its elements,
 /// is given up.
-Projected project(Crowd&, Neighbours&, const RadiusBounds&, Real overlap);
+/// `told` hears the largest overlap before each round.
+Projected project(Crowd&, Neighbours&, const RadiusBounds&, Real overlap, const std::function<void(Real)>& told = [](Real) {});
 
 }  // namespace beadwork::packing

@@ -45,13 +45,18 @@ Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
       .value;
 }
 
+void tell_of_overlap(const Tell& tell, const char* which, Real overlap) {
+  tell((std::ostringstream() << which << " overlap " << overlap).str());
+}
+
 /// Radii shrink together, each time by a little more than the mean overlap, and the forces balance again: the
 /// overlap falls in proportion to the distance from the jamming point.
-void decompress(Crowd& crowd, Neighbours& neighbours) {
+void decompress(Crowd& crowd, Neighbours& neighbours, const Tell& tell) {
   constexpr Real small = 2e-5;
   for (int round = 0; round < 15; ++round) {
     settle(crowd, neighbours, 500, 0.02);
     const Real mean = overlaps(crowd, neighbours).mean;
+    tell_of_overlap(tell, "mean", mean);
     if (mean < small) return;
     scale_radii(crowd, 1 - 1.5 * mean);
   }
@@ -112,9 +117,9 @@ void relaxation(Packing& packing, const Relaxation& rule) {
   const Real spread = packing.dispersion.spread;
   const Real change = std::min(rule.radius_change, spread / 5);
   if (change > 0)
-    project(crowd, neighbours, {1 - spread, 1 + spread, change}, rule.overlap / 2);
+    project(crowd, neighbours, {1 - spread, 1 + spread, change}, rule.overlap / 2, [&](Real largest) { tell_of_overlap(packing.tell, "largest", largest); });
   else
-    decompress(crowd, neighbours);
+    decompress(crowd, neighbours, packing.tell);
   shrink_away_last_overlap(packing, crowd, neighbours, rule.overlap / 2);
   warn_of_lost_contacts(packing, crowd, before);
   warn_of_crystal(packing, crowd);

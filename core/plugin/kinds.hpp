@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "core/base/headway.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/mechanics/stiffness.hpp"
 #include "core/plugin/plugin.hpp"
@@ -33,6 +34,8 @@ struct FillJob {
   std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
   /// To be called now and then in long work: throws Interrupted if the user wants to stop.
   std::function<void()> pause = [] {};
+  /// To be called now and then in long work: how far it has come.
+  TellHeadway progress = [](const Headway&) {};
   /// What the steps of one filling hand on to one another, by the name of the set that is filled.
   std::map<std::string, std::any>* in_progress = nullptr;
 };

@@ -43,6 +43,7 @@ class FreeFilling final : public ElementMaker {
     if (deviation.given()) request.dispersion.deviation = *deviation;
     request.seed = own_seed(job.seed);
     request.pause = job.pause;
+    request.tell = teller(job, *this, *set);
     if (around.given()) note_obstacles(domain, request.around);
     guarded(*this, [&] {
       packing::Packing packing = packing::free_filling(request);

@@ -47,6 +47,11 @@ void guarded(const Plugin& plugin, const Step& step) {
   }
 }
 
+/// Hands on what a step of a packing tells of its progress; when it will end nobody knows.
+inline packing::Tell teller(const FillJob& job, const Plugin& step, const std::string& set) {
+  return [&job, work = fmt::format("{} '{}'", step.tag(), set)](const std::string& detail) { job.progress({work, detail, {}, false}); };
+}
+
 /// A step that goes on with a packing that an earlier one began.
 class PackingStep : public SphereFiller {
  public:
@@ -59,6 +64,7 @@ class PackingStep : public SphereFiller {
     auto& progress = *std::any_cast<const std::shared_ptr<PackingInProgress>&>(found->second);
     const std::size_t before = progress.packing.warnings.size();
     progress.packing.pause = job.pause;
+    progress.packing.tell = teller(job, *this, *set);
     guarded(*this, [&] { go_on(progress.packing); });
     for (std::size_t w = before; w < progress.packing.warnings.size(); ++w) job.warn(progress.packing.warnings[w]);
     place(domain, progress);

@@ -1,0 +1,58 @@
+#pragma once
+// What a terminal shows while one waits: a bar, how much is done, about how long it will take, and where the work stands.
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/base/headway.hpp"
+
+namespace beadwork {
+
+/// Time to go, by how fast the work went lately: the longer it goes on, the slower the estimate forgets.
+class TimeToGo {
+ public:
+  /// `now`: seconds of any clock. A share below the one before begins anew.
+  void note(double now, double share);
+  /// [s]; nothing during the first seconds, or where the work stands still.
+  std::optional<double> seconds() const;
+
+ private:
+  double began_ = 0, last_ = 0, share_ = -1;
+  double rate_ = 0;  // share per second
+};
+
+/// "40 s", "12 min", "3.5 h"
+std::string duration_text(double seconds);
+
+/// One line of at most `width` columns: "45 % [######........] 30 s to go  stage 'pull', step 1200". What does not fit is left out from
+/// the end; the bar goes first where the terminal is narrow.
+std::string progress_line(const Headway& headway, std::optional<double> seconds_to_go, std::size_t width);
+
+/// On a terminal one line, which is written over; elsewhere a line a minute for the log.
+class Progress {
+ public:
+  /// `log` takes the lines where no terminal shows them. `on_terminal`: whether standard error, if it is a terminal, is to show anything.
+  explicit Progress(std::function<void(const std::string&)> log, bool on_terminal = true);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() { hide(); }
+
+  void show(const Headway& headway);
+  /// Takes the line away, before others are written; it comes back by itself.
+  void hide();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void write(const std::string& line);
+
+  std::function<void(const std::string&)> log_;
+  bool terminal_;
+  bool shown_ = false;
+  std::string work_;
+  TimeToGo to_go_;
+  Clock::time_point began_ = Clock::now(), last_shown_, last_logged_ = began_;
+};
+
+}  // namespace beadwork
