@@ -1,7 +1,10 @@
 #include "workbench/describe.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/base/failure.hpp"
@@ -35,7 +38,7 @@ const char* section_doc(Kind kind) {
     case Kind::bond: return "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; acts at every evaluation of the forces.";
     case Kind::load: return "Moves or holds sets of elements, pushes them, or gives them a velocity to start with.";
     case Kind::move: return "Advances the scene by one step. A stage has exactly one.";
-    case Kind::fail: return "Judges, behind the forces, which bonds break.";
+    case Kind::fail: return "Decides, after the forces, which bonds break.";
     case Kind::derive: return "Provides a field that somebody reads. Never stands in a deck: it is added by itself, and runs only in the steps in which its field is read.";
     case Kind::watch: return "Looks at the scene every few steps and records. Changes nothing.";
   }
@@ -58,6 +61,21 @@ std::string range_words(const ParamBase& param) {
   return words == "any" ? "" : words;
 }
 
+std::string presence_words(const Plugin& plugin, const ParamBase& param) {
+  if (param.needed()) return "required";
+  if (param.info().one_of.empty()) return "optional";
+  std::vector<std::string> names;
+  for (const ParamBase* member : plugin.one_of(param.info().one_of)) names.push_back(member->info().name);
+  return "one of " + join(names);
+}
+
+std::string meaning(const ParamBase& param) {
+  if (param.info().variables.empty()) return param.info().doc;
+  std::vector<std::string> names;
+  for (const Variable& variable : param.info().variables) names.push_back(variable.name);
+  return fmt::format("{} (of {})", param.info().doc, join(names));
+}
+
 std::string as_list(const Manual& manual) {
   std::string text;
   const char* section = nullptr;
@@ -76,6 +94,13 @@ struct DescribeArguments {
   std::vector<std::string> libraries;
 };
 
+// Of what standard output is shown on; a hundred characters where it is no terminal.
+std::size_t terminal_width() {
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 40) return 100;
+  return std::min<std::size_t>(size.ws_col, 120);
+}
+
 int describe(const DescribeArguments& arguments) {
   Manual manual = manual_of(Catalogue::open({arguments.libraries.begin(), arguments.libraries.end()}));
   if (!arguments.plugin.empty()) manual = pick(std::move(manual), arguments.plugin);
@@ -84,10 +109,10 @@ int describe(const DescribeArguments& arguments) {
     text = as_xsd(manual);
   else if (arguments.format == "json")
     text = as_json(manual);
-  else if (arguments.format == "md" || !arguments.plugin.empty())
+  else if (arguments.format == "md")
     text = as_markdown(manual);
   else
-    text = as_list(manual);
+    text = arguments.plugin.empty() ? as_list(manual) : as_text(manual, terminal_width());
   std::fputs(text.c_str(), stdout);
   return 0;
 }
@@ -99,7 +124,7 @@ void add_describe(CLI::App& app, Chosen& chosen) {
   verb->footer("Examples: beadwork describe cohesive-beam\n          beadwork describe --format xsd > beadwork.xsd");
   auto arguments = std::make_shared<DescribeArguments>();
   verb->add_option("plugin", arguments->plugin, "A plugin, such as bond/cohesive-beam or cohesive-beam");
-  verb->add_option("--format", arguments->format, "md: the manual; xsd: a schema of decks for editors; json: the same as data")
+  verb->add_option("--format", arguments->format, "md: the manual as Markdown; xsd: a schema of decks for editors; json: the same as data; text for a terminal where absent")
       ->check(CLI::IsMember({"md", "xsd", "json"}));
   verb->add_option("--plugins", arguments->libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
   verb->callback([&chosen, arguments] { chosen = [arguments] { return describe(*arguments); }; });

@@ -25,6 +25,8 @@ Manual pick(Manual manual, const std::string& wanted);
 
 std::string as_list(const Manual& manual);
 std::string as_markdown(const Manual& manual);
+/// For a terminal: lines of at most `width` characters.
+std::string as_text(const Manual& manual, std::size_t width);
 std::string as_json(const Manual& manual);
 /// XSD 1.0 for decks and for the files that they include.
 std::string as_xsd(const Manual& manual);
@@ -37,5 +39,9 @@ const char* use_word(Kind kind, Verb verb);
 std::string type_words(const ParamBase& param);
 /// "> 0 Pa", or "" where anything goes.
 std::string range_words(const ParamBase& param);
+/// Whether a parameter without a fallback has to be there: "required", "optional", "one of velocity, table".
+std::string presence_words(const Plugin& plugin, const ParamBase& param);
+/// What the parameter means, with the names that a formula knows.
+std::string meaning(const ParamBase& param);
 
 }  // namespace beadwork

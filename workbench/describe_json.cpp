@@ -14,6 +14,7 @@ Json json_of(const ParamBase& param) {
   if (const std::string range = range_words(param); !range.empty()) json["range"] = range;
   if (info.fallback) json["default"] = *info.fallback;
   if (!info.choices.empty()) json["choices"] = info.choices;
+  if (!info.one_of.empty()) json["one_of"] = info.one_of;
   for (const Variable& variable : info.variables) json["variables"].push_back({{"name", variable.name}, {"unit", variable.dimension.name()}});
   return json;
 }

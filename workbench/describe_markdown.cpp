@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text.hpp"
+#include "core/deck/operations.hpp"
 #include "workbench/describe.hpp"
 
 namespace beadwork {
@@ -18,17 +19,12 @@ std::string cell(const std::string& text) {
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
-std::string row_of(const ParamBase& param) {
+std::string row_of(const Plugin& plugin, const ParamBase& param) {
   const ParamInfo& info = param.info();
   const std::string only = info.instead.empty() ? "" : fmt::format(" where there is no {}", code(info.instead));
-  const std::string fallback = info.fallback ? code(*info.fallback) + only : param.needed() ? "**required**" : "optional";
-  std::string doc = info.doc;
-  if (!info.variables.empty()) {
-    std::vector<std::string> names;
-    for (const Variable& variable : info.variables) names.push_back(variable.name);
-    doc += fmt::format(" (of {})", join(names));
-  }
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", info.name, cell(type_words(param)), cell(range_words(param)), fallback, cell(doc));
+  const std::string presence = presence_words(plugin, param);
+  const std::string fallback = info.fallback ? code(*info.fallback) + only : presence == "optional" ? presence : "**" + presence + "**";
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", info.name, cell(type_words(param)), cell(range_words(param)), fallback, cell(meaning(param)));
 }
 
 std::string row_of(Kind kind, const FieldUse& use) {
@@ -41,7 +37,7 @@ std::string chapter(const Described& each) {
   std::string text = fmt::format("### `{}`\n\n{}.\n", each.tag, each.about);
   if (!each.plugin->params().empty()) {
     text += "\n| attribute | type | range | default | meaning |\n|---|---|---|---|---|\n";
-    for (const ParamBase* param : each.plugin->params()) text += row_of(*param);
+    for (const ParamBase* param : each.plugin->params()) text += row_of(*each.plugin, *param);
   }
   if (!each.plugin->uses().empty()) {
     text += "\n| | field | on | unit | meaning |\n|---|---|---|---|---|\n";
@@ -62,15 +58,65 @@ What a plugin does with a field: it *reads* it; *adds* to it (a sum that is clea
 only if somebody reads it); *fills* it once; *keeps* it (state, saved in checkpoints).
 
 Editors check and complete a deck whose root is `<scene xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"
-xsi:noNamespaceSchemaLocation="path/to/beadwork.xsd">`; so does `xmllint --noout --schema beadwork.xsd deck.xml`. An included file
-is a `<scene>` too and is checked alike, unless it is included inside of a section. `beadwork check` finds what no schema can.
+xsi:noNamespaceSchemaLocation="path/to/beadwork.xsd">` ([editors](../editors.md)); so does `xmllint --noout --schema beadwork.xsd
+deck.xml`. An included file is a `<scene>` too and is checked alike, unless it is included inside of a section. `beadwork check`
+finds what no schema can.
+
+## Values and expressions
+
+A quantity is a number with a unit: `13.5 mm`, `70 GPa`, `0.5 N/mm`, `2500 kg/m^3`. Several values may share the unit behind the
+last: `0 0 13.5 mm`. A unit of another dimension than the attribute's is an error.
+
+Inside of `${...}`, and in attributes that are a formula or a condition, stand expressions on quantities:
+`${0.3*length + 2 mm}`, `where="x < 13.5 mm and radius > 2 um"`. From the operator that binds least to the one that binds most:
+
+| operator | meaning | dimensions |
+|---|---|---|
+| `or` `\|\|` | one condition or the other holds | conditions |
+| `and` `&&` | both conditions hold | conditions |
+| `not` | the condition does not hold | a condition |
+| `==` `!=` `\<` `\<=` `>` `>=` | comparison | both sides alike |
+| `+` `-` | sum, difference | both sides alike |
+| `*` `/` | product, quotient | any |
+| `-a` | opposite sign | any |
+| `a^b` | power, from the right: `2^3^2` is `2^9` | b a plain number; a whole or broken one |
+| `13.5 mm` | a number and its unit | |
+
+In XML a `<` inside of a value is written `&lt;`. Names are parameters, `pi`, and what the attribute knows besides (its manual says
+"of x, y, z"). A name may hold `.` and `-`; write blanks around a minus sign.
+
 )";
+
+const char* const moments = R"(
+## When a stage ends: `until`
+
+`until` of a mover or of a `<stage>` is one of these, or several joined by `or`:
+
+| `until` | the stage ends |
+|---|---|
+| `1 ms` | after this time, counted from the start of the stage |
+| `5000` | after this number of steps |
+| `0.8 mm` | when the set that is pulled farthest has moved as far |
+| `force of SET \< 3 N`, also `>` `\<=` `>=` | when the force on a driven set passes the value; to fall below it, it must have been above it |
+| `force of SET \< 2 percent of its maximum` | when it passes that share of its largest value in this stage |
+| `displacement of SET > 1 mm` | when this set has moved as far |
+| `time > 1 ms and displacement > 0.1 mm` | when a condition on `time`, `step` and `displacement` holds |
+
+`at` of a watcher lists moments besides its `every`, separated by commas: times, numbers of steps or displacements as above,
+`at="0 mm, 0.3 mm, 1 ms"`.
+)";
+
+std::string functions_table() {
+  std::string text = "| function | meaning |\n|---|---|\n";
+  for (const FunctionHelp& f : functions()) text += fmt::format("| `{}({})` | {} |\n", f.name, f.arguments, f.doc);
+  return text;
+}
 
 }  // namespace
 
 std::string as_markdown(const Manual& manual) {
   if (manual.size() == 1) return chapter(manual.front());
-  std::string text = preface;
+  std::string text = preface + functions_table() + moments;
   const char* section = nullptr;
   for (const Described& each : manual) {
     if (section != kind_name(each.kind)) text += fmt::format("\n## `<{}>`\n\n{}\n", kind_name(each.kind), section_doc(each.kind));

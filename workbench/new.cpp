@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "core/base/failure.hpp"
@@ -13,8 +14,11 @@ namespace beadwork {
 namespace {
 
 // A deck without stages ends where its mover says, so there 'until' is no option.
+// Of parameters that stand for one another the first is written.
 bool to_be_filled_in(const Described& each, const ParamBase& param) {
-  return param.needed() || (each.kind == Kind::move && param.info().name == "until");
+  const std::string& group = param.info().one_of;
+  const bool first_of_group = !group.empty() && each.plugin->one_of(group).front() == &param;
+  return param.needed() || first_of_group || (each.kind == Kind::move && param.info().name == "until");
 }
 
 std::string in_comment(std::string text) {
@@ -22,8 +26,9 @@ std::string in_comment(std::string text) {
   return text;
 }
 
-std::string help_line(const ParamBase& param) {
+std::string help_line(const Plugin& plugin, const ParamBase& param) {
   std::string type = type_words(param);
+  if (!param.info().one_of.empty()) type += ", " + presence_words(plugin, param);
   if (const std::string range = range_words(param); !range.empty()) type += ", " + range;
   if (param.info().fallback) type += fmt::format(", default {}", *param.info().fallback);
   return fmt::format("         {} ({}): {}\n", param.info().name, type, param.info().doc);
@@ -34,7 +39,7 @@ std::string skeleton(const Described& each) {
   std::string wanted, optional, attributes;
   for (const ParamBase* param : each.plugin->params()) {
     const bool fill_in = to_be_filled_in(each, *param);
-    (fill_in ? wanted : optional) += help_line(*param);
+    (fill_in ? wanted : optional) += help_line(*each.plugin, *param);
     if (fill_in) attributes += fmt::format(" {}=\"\"", param->info().name);
   }
   std::string comment = each.about + ".\n";
@@ -44,8 +49,17 @@ std::string skeleton(const Described& each) {
   return fmt::format("    <!-- {} -->\n    <{}{}/>\n", in_comment(comment), each.tag, attributes);
 }
 
+// What editors check and complete a deck by: the schema that was installed, or built, with this program.
+std::string schema_attributes() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto schema = (program.parent_path() / "../share/beadwork/beadwork.xsd").lexically_normal();
+  if (error || !std::filesystem::exists(schema, error)) return "";
+  return fmt::format("\n       xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"{}\"", xml_escaped(schema.string()));
+}
+
 std::string skeleton_deck(const Manual& chosen, const std::string& name) {
-  std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"{}\" seed=\"1\">\n", xml_escaped(name));
+  std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"{}\" seed=\"1\"{}>\n", xml_escaped(name), schema_attributes());
   for (const Kind kind : all_kinds) {
     std::string section;
     for (const Described& each : chosen)

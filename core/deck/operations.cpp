@@ -59,11 +59,35 @@ double apply(Operation operation, double a, double b, double c) {
   return nan;
 }
 
+std::span<const FunctionHelp> functions() {
+  constexpr std::string_view plain = "of a plain number; a plain number";
+  static constexpr std::array<FunctionHelp, 20> all{{
+      {"sqrt", "a", "square root; the dimension follows: sqrt(4 mm^2) is 2 mm"},
+      {"abs", "a", "absolute value, in the dimension of a"},
+      {"min", "a, b, ...", "smallest, of quantities of one dimension"},
+      {"max", "a, b, ...", "largest, of quantities of one dimension"},
+      {"if", "condition, a, b", "a where the condition holds, else b; both of one dimension"},
+      {"sign", "a", "-1, 0 or 1, of any quantity"},
+      {"atan2", "y, x", "angle of the point (x, y) in radians, of two quantities of one dimension"},
+      {"sin", "a", plain},
+      {"cos", "a", plain},
+      {"tan", "a", plain},
+      {"asin", "a", plain},
+      {"acos", "a", plain},
+      {"atan", "a", plain},
+      {"exp", "a", plain},
+      {"log", "a", "natural logarithm of a plain number"},
+      {"ln", "a", "the same as log"},
+      {"log10", "a", "decimal logarithm of a plain number"},
+      {"floor", "a", "next whole number below, of a plain number"},
+      {"ceil", "a", "next whole number above, of a plain number"},
+      {"round", "a", "nearest whole number, of a plain number"},
+  }};
+  return all;
+}
+
 bool is_function(std::string_view name) {
-  constexpr std::array<std::string_view, 21> names{"sqrt", "abs",   "min",   "max",  "if",    "sin", "cos",
-                                                   "tan",  "asin",  "acos",  "atan", "atan2", "exp", "log",
-                                                   "ln",   "log10", "floor", "ceil", "round", "sign"};
-  return !name.empty() && std::find(names.begin(), names.end(), name) != names.end();
+  return std::any_of(functions().begin(), functions().end(), [&](const FunctionHelp& f) { return f.name == name; });
 }
 
 }  // namespace beadwork

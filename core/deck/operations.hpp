@@ -1,6 +1,7 @@
 #pragma once
 // The steps that a compiled expression is made of.
 
+#include <span>
 #include <string_view>
 
 namespace beadwork {
@@ -47,6 +48,11 @@ enum class Operation {
 /// One step on plain numbers; conditions are 1 and 0. A NaN makes every result NaN, comparisons too.
 double apply(Operation operation, double a, double b, double c);
 
+/// A function that expressions know, as the manual tells it.
+struct FunctionHelp {
+  std::string_view name, arguments, doc;
+};
+std::span<const FunctionHelp> functions();
 /// Is this the name of a function in expressions?
 bool is_function(std::string_view name);
 

@@ -48,6 +48,7 @@ void write_frame(hid_t group, const FrameStamp& stamp, const FrameRequest& reque
   h5::set_attribute(group, "step", stamp.step);
   h5::set_attribute(group, "stage", static_cast<std::int64_t>(stamp.stage));
   if (request.picture) h5::set_attribute(group, "picture", std::int64_t{1});
+  if (!request.view.empty()) h5::set_attribute(group, "view", request.view);
   const h5::Handle elements = h5::make_group(group, "elements");
   write_columns(elements.id(), domain.elements(), {"id", "position", "radius"}, request.elements, storage);
   const h5::Handle bonds = h5::make_group(group, "bonds");

@@ -154,7 +154,31 @@ FrameHead head_of(hid_t group, const std::string& name) {
   head.time = number_attribute<Real>(group, "time", H5T_NATIVE_DOUBLE, 0);
   head.step = number_attribute<std::int64_t>(group, "step", H5T_NATIVE_INT64, 0);
   head.picture = number_attribute<int>(group, "picture", H5T_NATIVE_INT, 0) != 0;
+  if (const auto view = text_attribute(group, "view"); !view.empty()) head.view = view.front();
   return head;
+}
+
+/// Columns of numbers and of vectors besides the `usual` ones; what has another shape or length is no column.
+std::vector<FieldValues> read_fields(hid_t group, std::initializer_list<const char*> usual, std::size_t rows) {
+  std::vector<FieldValues> fields;
+  for (const std::string& name : names_in(group)) {
+    if (std::find(usual.begin(), usual.end(), name) != usual.end()) continue;
+    const Handle dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!dataset) continue;
+    const std::vector<hsize_t> shape = shape_of(dataset.id());
+    const bool vector = shape.size() == 2 && shape[1] == 3;
+    if (shape.empty() || shape[0] != rows || (shape.size() > 1 && !vector)) continue;
+    FieldValues field;
+    field.name = name;
+    field.is_length = vector;
+    if (const auto unit = text_attribute(dataset.id(), "unit"); !unit.empty()) field.unit = unit.front();
+    if (vector)
+      for (const Vec3& v : vectors(group, name)) field.values.push_back(v.norm());
+    else
+      field.values = reals(group, name);
+    fields.push_back(std::move(field));
+  }
+  return fields;
 }
 
 Bonds read_bonds(hid_t group, const std::string& family, std::size_t elements) {
@@ -174,6 +198,7 @@ Bonds read_bonds(hid_t group, const std::string& family, std::size_t elements) {
       bonds.state[b] = static_cast<State>(std::clamp<std::int64_t>(state[b], 0, 2));
   }
   bonds.has_damage = has(group, "damage");
+  bonds.fields = read_fields(group, {"ends", "id", "state"}, bonds.ends.size());
   return bonds;
 }
 
@@ -216,6 +241,7 @@ Frame FrameReader::read(const FrameHead& head) const {
   if (frame.radius.size() != count || frame.id.size() != count ||
       (!frame.displacement.empty() && frame.displacement.size() != count))
     throw MachineFailure("the columns of frame " + head.name + " have different lengths");
+  frame.fields = read_fields(elements.id(), {"id", "position", "radius"}, count);
   if (!has(group.id(), "bonds")) return frame;
   const Handle bonds = open_group(group.id(), "bonds");
   for (const std::string& family : names_in(bonds.id()))

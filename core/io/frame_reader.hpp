@@ -20,6 +20,14 @@ struct FrameHead {
   Real time = 0;
   std::int64_t step = 0;
   bool picture = false;  ///< the watcher asked for a picture of this frame
+  std::string view;      ///< x, y or z: the axis along which it is to be seen; empty: not said
+};
+
+/// A recorded column besides those that every frame has.
+struct FieldValues {
+  std::string name, unit;
+  std::vector<Real> values;     ///< one a row; of a vector its length
+  bool is_length = false;       ///< of a vector
 };
 
 struct Bonds {
@@ -28,6 +36,7 @@ struct Bonds {
   std::vector<std::array<Index, 2>> ends;  ///< rows of the frame's elements
   std::vector<State> state;                ///< as long as ends; all intact where the file has none
   bool has_damage = false;                 ///< the family can soften
+  std::vector<FieldValues> fields;         ///< as long as ends each
 };
 
 struct Frame {
@@ -36,6 +45,7 @@ struct Frame {
   std::vector<Vec3> position;
   std::vector<Real> radius;
   std::vector<Vec3> displacement;  ///< empty, or as long as position
+  std::vector<FieldValues> fields;  ///< of the elements, as long as position each
   std::vector<Bonds> bonds;
 };
 

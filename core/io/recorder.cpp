@@ -95,6 +95,7 @@ void unite(std::vector<const Column*>& columns, const std::vector<const Column*>
 
 void unite(FrameRequest& request, const FrameRequest& more) {
   request.picture |= more.picture;
+  if (!more.view.empty()) request.view = more.view;
   unite(request.elements, more.elements);
   for (const FamilyRequest& family : more.bonds) {
     const auto same = [&](const FamilyRequest& f) { return f.table == family.table; };

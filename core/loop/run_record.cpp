@@ -227,6 +227,7 @@ CurveSink& Run::curve(const CurvePlan& plan) {
 void Run::frame(const FramePlan& plan) {
   FrameRequest request;
   request.picture = plan.picture;
+  request.view = plan.view;
   const auto columns = [&](const Table& table) {
     std::vector<const Column*> found;
     for (const std::string& name : plan.fields)

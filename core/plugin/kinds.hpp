@@ -246,6 +246,7 @@ struct CurvePlan {
 struct FramePlan {
   std::vector<std::string> fields;
   bool picture = false;
+  std::string view = {};  ///< axis along which the report looks at the frame: x, y, z; empty: it chooses
 };
 
 /// What the loop shows to a watcher.

@@ -48,6 +48,7 @@ struct ParamInfo {
   int count = 0;                       ///< of several words: how many are wanted; 0 is any number
   std::vector<Variable> variables = {};   ///< of a formula
   std::string instead = {};            ///< an attribute that may stand in place of this one: with it there is no fallback
+  std::string one_of = {};             ///< of the parameters that name one such group, exactly one is to be given
 };
 
 /// A formula on quantities, such as `x < 13.5 mm`.
@@ -72,7 +73,7 @@ class ParamBase {
   const Location& at() const { return at_; }
   /// Where this word of the value stands; where the value does not hold it literally, the value.
   Location at(const std::string& word) const;
-  bool needed() const { return !info_.optional && !info_.fallback; }
+  bool needed() const { return !info_.optional && !info_.fallback && info_.one_of.empty(); }
 
   void read(const Attribute& attribute, const Scope& scope, Complaints& complaints);
   void read_fallback(const Location& at, const Scope& scope, Complaints& complaints);

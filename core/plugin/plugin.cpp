@@ -60,6 +60,7 @@ void Plugin::configure(const Node& node, const std::string& id, const Scope& sco
                                                       did_you_mean(attribute.name, known)));
   for (const auto& child : node.children)
     complaints.error(child->at, fmt::format("<{}> takes no <{}> inside it", tag_, child->tag));
+  check_groups(complaints);
 }
 
 std::string Plugin::column_name(const FieldUse& use) const {
@@ -82,15 +83,27 @@ void Plugin::bind(Domain& domain) {
   }
 }
 
-void Plugin::exactly_one(const std::vector<const ParamBase*>& of, const Location& at, Complaints& complaints) {
-  std::vector<std::string> all, there;
-  for (const ParamBase* p : of) {
-    all.push_back("'" + p->info().name + "'");
-    if (p->in_deck()) there.push_back(all.back());
+std::vector<const ParamBase*> Plugin::one_of(const std::string& group) const {
+  std::vector<const ParamBase*> members;
+  for (const ParamBase* p : params_)
+    if (p->info().one_of == group) members.push_back(p);
+  return members;
+}
+
+// Told once for each group, at its first member.
+void Plugin::check_groups(Complaints& complaints) const {
+  for (const ParamBase* p : params_) {
+    if (p->info().one_of.empty()) continue;
+    const auto members = one_of(p->info().one_of);
+    if (members.front() != p) continue;
+    std::vector<std::string> all, there;
+    for (const ParamBase* member : members) {
+      all.push_back("'" + member->info().name + "'");
+      if (member->in_deck()) there.push_back(all.back());
+    }
+    if (there.size() == 1) continue;
+    complaints.error(at_, fmt::format("exactly one of {} is wanted, {}", join(all), there.empty() ? "none is given" : "got " + join(there, " and ")));
   }
-  if (there.size() == 1) return;
-  complaints.error(at, fmt::format("exactly one of {} is wanted, {}", join(all),
-                                   there.empty() ? "none is given" : "got " + join(there, " and ")));
 }
 
 }  // namespace beadwork

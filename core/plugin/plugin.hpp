@@ -48,6 +48,8 @@ class Plugin {
   const std::vector<ParamBase*>& params() const { return params_; }
   const std::vector<FieldUse*>& uses() const { return uses_; }
   const ParamBase* param(const std::string& name) const;
+  /// The parameters that name this group as their `one_of`.
+  std::vector<const ParamBase*> one_of(const std::string& group) const;
 
   /// Reads the node's attributes into the parameters; complains of what is unknown, missing or out of range.
   void configure(const Node& node, const std::string& id, const Scope& scope, Complaints& complaints);
@@ -67,10 +69,9 @@ class Plugin {
 
  protected:
   Plugin() = default;
-  /// Complains unless exactly one of these parameters is in the deck.
-  static void exactly_one(const std::vector<const ParamBase*>& of, const Location& at, Complaints& complaints);
 
  private:
+  void check_groups(Complaints& complaints) const;
   friend class ParamBase;
   friend class FieldUse;
   std::vector<ParamBase*> params_;

@@ -147,9 +147,9 @@ class CohesiveContact final
   Param<Real> energy_{this, {.name = "energy", .unit = "J/m2", .range = positive, .doc = "Fracture energy G of the contact's area, Eq (5): u_p = 2 G / sigma"}};
   Param<Real> shear_strength{this, {.name = "shear-strength", .unit = "Pa", .range = positive, .doc = "Strength against sliding; as 'strength' where absent", .optional = true}};
   Param<Real> shear_energy{this, {.name = "shear-energy", .unit = "J/m2", .range = positive, .doc = "Fracture energy of sliding; as 'energy' where absent", .optional = true}};
-  Param<Real> stiffness{this, {.name = "stiffness", .unit = "Pa/m", .range = positive, .doc = "Traction over opening while sound, K; exactly one of stiffness, onset, onset-ratio", .optional = true}};
-  Param<Real> onset{this, {.name = "onset", .unit = "m", .range = positive, .doc = "Opening u_e at which damage starts", .optional = true}};
-  Param<Real> onset_ratio{this, {.name = "onset-ratio", .range = {0, 1, true, true}, .doc = "u_e / u_p", .optional = true}};
+  Param<Real> stiffness{this, {.name = "stiffness", .unit = "Pa/m", .range = positive, .doc = "Traction over opening while undamaged, K", .one_of = "onset"}};
+  Param<Real> onset{this, {.name = "onset", .unit = "m", .range = positive, .doc = "Opening u_e at which damage starts", .one_of = "onset"}};
+  Param<Real> onset_ratio{this, {.name = "onset-ratio", .range = {0, 1, true, true}, .doc = "u_e / u_p", .one_of = "onset"}};
   Param<std::string> area_rule{this, {.name = "area", .doc = "literal: S = pi R^2 of each contact; normalised: scaled so that all contacts together have the area 'interface-area'", .fallback = "literal", .choices = {"literal", "normalised"}}};
   Param<std::string> area_radius{this, {.name = "area-radius", .doc = "R of a contact: the mean of its two radii (elements of like size), or the smaller one (small elements on a large one)", .fallback = "mean", .choices = {"mean", "smaller"}}};
   Param<Real> interface_area{this, {.name = "interface-area", .unit = "m2", .range = positive, .doc = "Area of the interface; needed for 'normalised', else only reported", .optional = true}};
@@ -177,7 +177,6 @@ class CohesiveContact final
   Writes<Real> sliding{this, sliding_field};
 
   void check(Complaints& complaints) const override {
-    exactly_one({&stiffness, &onset, &onset_ratio}, at(), complaints);
     if (*area_rule == "normalised" && !interface_area.given())
       complaints.error(area_rule.at(), "'area' normalised needs 'interface-area', the area that all contacts together stand for");
     if (!strength.given() || !energy_.given()) return;

@@ -11,20 +11,18 @@ namespace beadwork {
 class FreeFilling final : public ElementMaker {
  public:
   static constexpr const char* about = "First step of filling: elements at random places without overlap, until nothing more fits";
-  Param<Vec3> box{this, {.name = "box", .unit = "m", .range = positive, .doc = "Extents of the box to be filled; exactly one of box and cylinder-radius", .optional = true}};
+  Param<Vec3> box{this, {.name = "box", .unit = "m", .range = positive, .doc = "Extents of the box to be filled", .one_of = "shape"}};
   Param<Vec3> from{this, {.name = "from", .unit = "m", .doc = "Lowest corner of the box, or centre of one end of the cylinder", .fallback = "0 0 0 m"}};
-  Param<Real> cylinder_radius{this, {.name = "cylinder-radius", .unit = "m", .range = positive, .doc = "Radius of the cylinder to be filled, from 'from' to 'to'", .optional = true}};
+  Param<Real> cylinder_radius{this, {.name = "cylinder-radius", .unit = "m", .range = positive, .doc = "Radius of the cylinder to be filled, from 'from' to 'to'", .one_of = "shape"}};
   Param<Vec3> to{this, {.name = "to", .unit = "m", .doc = "Centre of the other end of the cylinder", .optional = true}};
-  Param<std::int64_t> count{this, {.name = "count", .range = {1}, .doc = "Number of elements of the finished packing; exactly one of count and mean-radius", .optional = true}};
-  Param<Real> mean_radius{this, {.name = "mean-radius", .unit = "m", .range = positive, .doc = "Mean radius; the number of elements follows", .optional = true}};
+  Param<std::int64_t> count{this, {.name = "count", .range = {1}, .doc = "Number of elements of the finished packing", .one_of = "size"}};
+  Param<Real> mean_radius{this, {.name = "mean-radius", .unit = "m", .range = positive, .doc = "Mean radius; the number of elements follows", .one_of = "size"}};
   Param<std::string> law{this, {.name = "law", .doc = "How radii are distributed", .fallback = "uniform", .choices = {"uniform", "truncated-gaussian"}}};
   Param<Real> spread{this, {.name = "spread", .range = {0, 1, false, true}, .doc = "Radii lie within (1 - spread) and (1 + spread) of their mean", .fallback = "0.25"}};
   Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut; 0.125 where absent", .optional = true}};
   Param<std::vector<std::string>> around{this, {.name = "around", .doc = "Sets that are there already and do not move", .optional = true, .role = Role::set}};
 
   void check(Complaints& complaints) const override {
-    exactly_one({&count, &mean_radius}, at(), complaints);
-    exactly_one({&box, &cylinder_radius}, at(), complaints);
     if (cylinder_radius.in_deck() && !to.given()) complaints.error(cylinder_radius.at(), "a cylinder needs 'to', the centre of its other end");
     if (to.in_deck() && !cylinder_radius.in_deck()) complaints.error(to.at(), "'to' belongs to a cylinder; a box reaches from 'from' as far as 'box' says");
     if (deviation.in_deck() && *law == "uniform") complaints.error(deviation.at(), "'deviation' belongs to law=\"truncated-gaussian\"; a uniform law has its 'spread' only");

@@ -12,8 +12,13 @@ class Snapshot final : public Watcher {
                                           .fallback = "position",
                                           .role = Role::fields}};
   Param<bool> picture{this, {.name = "picture", .doc = "Whether the report draws these frames in any case", .fallback = "no"}};
+  Param<std::string> view{this,
+                          {.name = "view",
+                           .doc = "Axis along which the report looks at these frames; where absent, at an interface or a crack from its edge, else at the broadest face",
+                           .optional = true,
+                           .choices = {"x", "y", "z"}}};
 
-  void look(Sight& sight) override { sight.frame({*fields, *picture}); }
+  void look(Sight& sight) override { sight.frame({*fields, *picture, view.given() ? *view : ""}); }
 };
 
 }  // namespace beadwork

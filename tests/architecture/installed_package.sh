@@ -31,12 +31,12 @@ echo "install, and move the folder"
 expect 0 -- cmake --install "$build" --prefix "$work/installed"
 mv "$work/installed" "$work/moved"
 expect 0 cohesive-beam verlet -- "$beadwork" describe
-for file in share/beadwork/beadwork.xsd share/beadwork/deck.md include/beadwork/core/version.hpp; do
+for file in share/beadwork/beadwork.xsd share/beadwork/deck.md include/beadwork/core/version.hpp share/beadwork/examples/plugins/load/pull.cpp; do
   [ -f "$work/moved/$file" ] || fail "$file is not installed"
 done
 
 echo "build the plugin template against it, and run its deck"
-build_project "$source/tools/plugin-template" "$work/template"
+build_project "$work/moved/share/beadwork/examples/plugin-template" "$work/template"
 ropes=$work/template/ropes.so
 deck=$source/tools/plugin-template/three-balls.xml
 expect 0 stiffness stretch -- "$beadwork" describe rope --plugins "$ropes"
@@ -46,6 +46,21 @@ expect 0 -- "$beadwork" run "$deck" --plugins "$ropes" --out "$work/out" --threa
 tail -n 1 "$work/out/curves/force.csv" | awk -F, '{ if ($5 <= 0 || ($4 / $5 - 1) ^ 2 > 0.02 ^ 2) { print "force " $4 ", expected " $5; exit 1 } }' ||
   fail "the ropes pull with another force than k/2 times the displacement"
 expect 2 "no <rope> in <bond>" -- "$beadwork" check "$deck"
+
+echo "a load of one's own is watched by force-curve, until and at; a curve of one's own is written at its moments"
+expect 0 "reached force of right > 15 N" -- "$beadwork" run "$source/tools/plugin-template/shaken.xml" --plugins "$work/template" --out "$work/shaken" --threads 1
+/usr/bin/python3 - "$work/shaken/curves" <<'END' || fail "the shaken rope does not pull with k times the displacement, or its centroid is elsewhere"
+import csv, sys
+def rows(name):
+    names, *lines = csv.reader(open(f"{sys.argv[1]}/{name}.csv"))
+    return [dict(zip([n.split(" ")[0] for n in names], map(float, line))) for line in lines]
+force, place = rows("force"), rows("centroid")
+last = force[-1]
+assert 14 < last["force"] < 16 and abs(last["force"] / last["reference"] - 1) < 0.01, last
+crossed = [row for row in place if row["step"] % 10]          # the look at 0.01 mm, or at the end
+assert any(abs(row["x"] - 2.01e-3) < 1e-7 for row in crossed), crossed
+assert all(abs(p["x"] - 2e-3 - f["displacement"]) < 1e-12 for p, f in zip(place, force) if p["step"] == f["step"]), "apart"
+END
 
 echo "what is told of bonds holds for a law of one's own: dashpots, for one"
 expect 0 -- "$beadwork" run "$source/tests/architecture/installed_package/damped.xml" --plugins "$ropes" --out "$work/damped" --threads 1

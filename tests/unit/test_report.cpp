@@ -1,10 +1,12 @@
 // The report of a run: shows what is there, says what is not, and lets no text of a deck become markup.
 #include "workbench/report/report.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -138,7 +140,7 @@ TEST_F(Report, pictures_say_at_which_loading_and_in_which_state_the_specimen_is)
 
 TEST_F(Report, the_ledger_names_its_residual) {
   make_run();
-  EXPECT_THAT(page(), HasSubstr("The ledger closes to <b>1.00 %</b>"));  // derived: (2 - 1.98) / 2
+  EXPECT_THAT(page(), HasSubstr("Residual over the largest energy: <b>1.00 %</b> at the end, 1.00 % at most"));  // derived: (2 - 1.98) / 2
 }
 
 TEST_F(Report, breaks_and_packing_are_there) {
@@ -146,8 +148,47 @@ TEST_F(Report, breaks_and_packing_are_there) {
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("1 bond broke, releasing 1 mJ."));
   EXPECT_THAT(html, HasSubstr("bonds broken so far"));
-  EXPECT_THAT(html, HasSubstr("<th>density</th><td>0.615</td>"));
+  EXPECT_THAT(html, HasSubstr("<th>packing density</th><td>61.5 %</td>"));
   EXPECT_THAT(html, HasSubstr("<title>100 to 200: 7</title>"));  // micrometres
+}
+
+TEST_F(Report, breaks_over_time_are_steps) {
+  make_run();
+  write(folder / "summary.json", R"({"status": "done", "time": 1e-3})");
+  // One break at half of the time: level up to there, one up, level to the end of the run.
+  const double middle = report::Axes::left + 0.5 * (report::Axes::width - report::Axes::left - report::Axes::right);
+  EXPECT_THAT(page(), testing::ContainsRegex(fmt::format("L{0:.1f} [0-9.]+L{0:.1f} [0-9.]+L{1:.1f} ", middle, report::Axes::width - report::Axes::right)));
+}
+
+TEST_F(Report, a_curve_of_a_held_set_is_drawn_against_time) {
+  make_run();
+  write(folder / "curves/force.csv", "step [1],time [s],displacement [m],force [N]\n0,0,0,0\n50,5e-4,0,30\n100,1e-3,0,60\n");
+  write(folder / "curves/force.json", R"({"title": "Load", "x": "displacement", "y": ["force"]})");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr(">time [ms]</text>"));
+  EXPECT_THAT(html, Not(HasSubstr(">displacement [m]</text>")));
+}
+
+TEST_F(Report, recorded_fields_are_drawn_with_their_colour_bar) {
+  Domain domain;
+  make_specimen(domain);
+  BondTable& interface = *domain.find_family("interface");
+  Column& pull = interface.rows().add({"pull", On::bonds, Type::real, "N", "Force", ""});
+  Column& heat = domain.elements().add({"heat", On::elements, Type::real, "K", "Heat", ""});
+  for (Index b = 0; b < 6; ++b) pull.view<Real>()[b] = b - 2;
+  for (Index i = 0; i < 12; ++i) heat.view<Real>()[i] = i == 3 ? std::nan("") : 300;
+  const RunFolder run = RunFolder::fresh(folder, false);
+  Recorder recorder = Recorder::fresh(run, {}, {}, domain);
+  FrameRequest request;
+  request.elements = {&heat};
+  request.bonds.push_back({&interface, "spring", {&pull}});
+  request.view = "y";
+  recorder.write({0, 0, 0}, request, domain);
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<b>pull</b> of the bonds<div class=\"colorbar\"><span>-3</span>"));  // as far below zero as above
+  EXPECT_THAT(html, HasSubstr("<span>3 N</span>"));
+  EXPECT_THAT(html, HasSubstr("<b>heat</b>: 300 K everywhere."));
+  EXPECT_THAT(html, HasSubstr("Seen along y, "));  // as the snapshot said
 }
 
 TEST_F(Report, text_of_the_deck_does_not_become_markup) {
@@ -247,6 +288,15 @@ TEST(ReportTable, a_heading_has_a_name_and_a_unit) {
   EXPECT_EQ(table.columns[1].unit, "1");
   EXPECT_EQ(table.rows(), 2U);
   EXPECT_EQ(table.dropped_rows, 0);
+}
+
+TEST(ReportChart, a_reference_that_leaves_the_drawing_is_marked_with_how_far_it_goes) {
+  report::Chart chart;
+  chart.series.push_back({"force", {1, 2, 3}, {10, 11, 10}, 0, report::Stroke::solid});
+  chart.series.push_back({"theory", {1, 2, 3}, {10, 500, 11}, 1, report::Stroke::dashed});
+  EXPECT_THAT(report::figure(chart), HasSubstr("↑ theory goes on to 500"));
+  chart.series.back().y = {10, 11, 10};
+  EXPECT_THAT(report::figure(chart), Not(HasSubstr("goes on to")));
 }
 
 TEST(ReportChart, ticks_are_round_numbers) {

@@ -16,3 +16,8 @@ install(FILES ${PROJECT_BINARY_DIR}/BeadworkConfig.cmake ${PROJECT_BINARY_DIR}/B
               tools/cmake/BeadworkPlugins.cmake DESTINATION ${package_folder})
 
 install(FILES docs/reference/deck.md docs/reference/beadwork.xsd DESTINATION ${CMAKE_INSTALL_DATADIR}/beadwork)
+# What one starts from: the template, and the plugins themselves.
+install(DIRECTORY tools/plugin-template DESTINATION ${CMAKE_INSTALL_DATADIR}/beadwork/examples)
+install(DIRECTORY plugins DESTINATION ${CMAKE_INSTALL_DATADIR}/beadwork/examples FILES_MATCHING PATTERN "*.cpp" PATTERN "*.hpp")
+# Decks made by `beadwork new` name the schema, in the build folder too.
+configure_file(docs/reference/beadwork.xsd ${PROJECT_BINARY_DIR}/share/beadwork/beadwork.xsd COPYONLY)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "workbench/report/axes.hpp"
@@ -148,6 +149,43 @@ std::string markers_of(const Chart& chart, const Axes& axes) {
   return out;
 }
 
+/// The side of a reference that lies beyond the drawing: the row at which it leaves or comes back, and how far it goes.
+struct Leaving {
+  std::size_t row;
+  double farthest;
+};
+
+std::optional<Leaving> leaving_of(const Series& s, const Axes& axes, bool upwards) {
+  std::optional<Leaving> found;
+  bool was_beyond = false;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (!std::isfinite(s.y[i]) || s.x[i] < axes.x.low || s.x[i] > axes.x.high) continue;
+    const bool beyond = upwards ? s.y[i] > axes.y.high : s.y[i] < axes.y.low;
+    if (beyond && !found) found = {i, s.y[i]};
+    if (beyond) found->farthest = upwards ? std::max(found->farthest, s.y[i]) : std::min(found->farthest, s.y[i]);
+    if (was_beyond && !beyond && found->row == 0) found->row = i;  // it came from outside
+    was_beyond = beyond;
+  }
+  return found;
+}
+
+/// An arrow on the edge, and how far the reference goes: a line that just ends would look like the whole.
+std::string leavings_of(const Chart& chart, const Axes& axes) {
+  std::string out;
+  for (const Series& s : chart.series) {
+    if (s.stroke == Stroke::solid) continue;
+    for (const bool upwards : {true, false}) {
+      const auto leaving = leaving_of(s, axes, upwards);
+      if (!leaving) continue;
+      const double across = axes.across(s.x[leaving->row]);
+      out += fmt::format("<text class=\"leaves\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{} {} goes on to {}</text>", across,
+                         upwards ? Axes::top + 10 : Axes::height - Axes::bottom - 5, across > 0.5 * Axes::width ? "end" : "start",
+                         upwards ? "↑" : "↓", escaped(s.label), number(leaving->farthest, 3));
+    }
+  }
+  return out;
+}
+
 std::string legend_of(const Chart& chart) {
   if (chart.series.size() == 1 && !chart.y_label.empty())
     return "<div class=\"legend\"></div>";  // the axis says it
@@ -216,7 +254,7 @@ std::string figure(const Chart& chart) {
   for (const Stroke stroke : {Stroke::dashed, Stroke::points, Stroke::solid})
     for (const Series& s : chart.series)
       if (s.stroke == stroke && !(chart.stacked && stroke == Stroke::solid)) out += line_of(s, axes);
-  out += "</svg>" + markers_of(chart, axes) + probes_of(chart, axes);
+  out += "</svg>" + leavings_of(chart, axes) + markers_of(chart, axes) + probes_of(chart, axes);
   return frame(chart.title, legend_of(chart), out);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "workbench/report/axes.hpp"
 #include "workbench/report/chart.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -37,8 +38,12 @@ Scale scale_for(const Curve& curve, const std::string& axis, const std::string& 
   return readable(unit, most);
 }
 
+bool varies(const Column& column) { return range_of(column.values).span() > 0; }
+
+/// What the sidecar names, unless it never changes (the displacement of a set that is held): then the time.
 const Column* abscissa(const Curve& curve) {
-  if (const Column* named = curve.table.find(text_of(curve.sidecar, "x"))) return named;
+  const Column* named = curve.table.find(text_of(curve.sidecar, "x"));
+  if (named && (varies(*named) || curve.table.rows() < 2)) return named;
   if (const Column* time = curve.table.find("time")) return time;
   return &curve.table.columns[curve.table.columns.size() > 1 ? 1 : 0];
 }

@@ -1,4 +1,4 @@
-// Key facts, breaks, packing report, deck and log.
+// Key facts, breaks, deck and log.
 
 #include <fmt/format.h>
 
@@ -56,37 +56,11 @@ void add_rows(std::string& out, const Json& object, const std::string& before, c
   }
 }
 
-std::vector<double> reals_in(const Json& object, const char* key) {
-  std::vector<double> out;
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_array()) return out;
-  for (const Json& value : *found)
-    if (value.is_number()) out.push_back(value.get<double>());
-  return out;
-}
-
-bool is_histogram(const Json& value) {
-  return value.is_object() && value.contains("edges") && value.contains("counts");
-}
-
-std::string histogram(const std::string& title, const Json& value) {
-  Bars bars;
-  bars.edges = reals_in(value, "edges");
-  bars.heights = reals_in(value, "counts");
-  if (bars.edges.empty()) return "";
-  const Scale scale = readable(text_of(value, "unit", "m"), bars.edges.back());
-  for (double& edge : bars.edges) edge *= scale.factor;
-  bars.title = title;
-  bars.x_label = with_unit("radius", scale.unit);
-  bars.y_label = "elements";
-  return figure(bars);
-}
-
-std::string breaks_over_time(const record::Breaks& log) {
+std::string breaks_over_time(const record::Breaks& log, double end) {
   std::map<std::string, std::vector<double>> times;
   for (std::size_t i = 0; i < log.time.size(); ++i) times[log.mode[i]].push_back(log.time[i]);
-  const Scale scale =
-      readable("s", log.time.empty() ? 0 : *std::max_element(log.time.begin(), log.time.end()));
+  if (!log.time.empty()) end = std::max(end, *std::max_element(log.time.begin(), log.time.end()));
+  const Scale scale = readable("s", end);
   Chart chart;
   chart.title = "Broken bonds over time";
   chart.x_name = "time";
@@ -96,10 +70,13 @@ std::string breaks_over_time(const record::Breaks& log) {
   for (auto& [mode, when] : times) {
     std::sort(when.begin(), when.end());
     Series series{spaced(mode), {0}, {0}, static_cast<int>(chart.series.size() + 5) % 8};
+    // A step at each moment: nothing is broken by half in between.
     for (std::size_t i = 0; i < when.size(); ++i) {
-      series.x.push_back(when[i] * scale.factor);
-      series.y.push_back(static_cast<double>(i + 1));
+      series.x.insert(series.x.end(), 2, when[i] * scale.factor);
+      series.y.insert(series.y.end(), {static_cast<double>(i), static_cast<double>(i + 1)});
     }
+    series.x.push_back(end * scale.factor);
+    series.y.push_back(static_cast<double>(when.size()));
     chart.series.push_back(std::move(series));
   }
   return chart.series.empty() ? "" : figure(chart);
@@ -181,26 +158,8 @@ std::string breaks(const Run& run) {
   std::string words = "<p>" + plural(static_cast<std::int64_t>(log.time.size()), "bond") + " broke";
   const Scale scale = readable("J", energy);
   if (energy > 0) words += ", releasing " + number(energy * scale.factor) + " " + scale.unit;
-  return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log) + "<div>" + table + words +
+  return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log, run.summary.value("time", 0.0)) + "<div>" + table + words +
                                ".</p></div></div>");
-}
-
-std::string packing(const Run& run) {
-  const auto found = run.summary.find("packing");
-  if (found == run.summary.end()) return "";
-  std::string body;
-  for (const Json& report : found->is_array() ? *found : Json::array({*found})) {
-    if (!report.is_object()) continue;
-    Json plain = Json::object();
-    std::string charts;
-    for (const auto& [key, value] : report.items())
-      if (is_histogram(value))
-        charts += histogram(spaced(key), value);
-      else
-        plain[key] = value;
-    body += "<div class=\"beside\">" + charts + "<div>" + facts_table(plain) + "</div></div>";
-  }
-  return section("Packing", body);
 }
 
 std::string deck_and_log(const Run& run) {

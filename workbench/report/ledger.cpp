@@ -120,7 +120,7 @@ std::string table_of(const Curve& curve, const Account& account) {
   for (std::size_t row = 0; row <= last; ++row) worst = std::max(worst, std::abs(residual_at(account, row)));
   if (whole > 0)
     out += fmt::format(
-        "<p>The ledger closes to <b>{}</b> of the largest energy at the end, and to {} at worst.</p>",
+        "<p>Residual over the largest energy: <b>{}</b> at the end, {} at most during the run.</p>",
         percent(std::abs(residual_at(account, last)) / whole), percent(worst / whole));
   return out;
 }

@@ -85,6 +85,7 @@ svg text { fill: var(--soft); font-size: 13px; font-variant-numeric: tabular-num
 .point { fill: var(--card); stroke: var(--s); stroke-width: 1.6; }
 .area { fill: var(--s); fill-opacity: .68; stroke: var(--card); stroke-width: .8; }
 .bar { fill: var(--c0); fill-opacity: .75; } .bar:hover { fill-opacity: 1; }
+svg .leaves { fill: var(--ink); font-size: 12px; paint-order: stroke; stroke: var(--card); stroke-width: 4px; }
 .marker circle { fill: var(--card); stroke: var(--ink); stroke-width: 1.3; }
 svg .marker text { fill: var(--ink); font-size: 10.5px; font-weight: 650; }
 .probes rect { fill: transparent; }
@@ -104,6 +105,10 @@ svg .probes text { fill: var(--ink); paint-order: stroke; stroke: var(--card); s
 .view img { display: block; max-width: 100%; height: auto; }
 .scale { position: absolute; left: 0; bottom: 11px; height: 4px; border: solid var(--soft); border-width: 0 1.3px 1.3px; }
 .scale b { position: absolute; left: calc(100% + 7px); top: -9px; font: 12px/1.4 system-ui, sans-serif; color: var(--soft); white-space: nowrap; }
+.field { break-inside: avoid; border-top: 1px solid var(--rule); padding-top: 10px; margin-bottom: 14px; }
+.field figcaption b::first-letter { text-transform: uppercase; }
+.colorbar { display: inline-flex; align-items: center; gap: 8px; margin-left: 18px; color: var(--soft); font-size: 13px; }
+.colorbar i { width: 180px; height: 11px; border-radius: 3px; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 details { margin: 4px 0; } summary { cursor: pointer; color: var(--soft); padding: 3px 0; } summary:hover { color: var(--ink); }
 details.quiet { margin-top: 12px; font-size: 14px; }
 pre { font: 12.5px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; overflow: auto; max-height: 560px;

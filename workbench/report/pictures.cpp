@@ -16,11 +16,6 @@ namespace {
 
 constexpr int widest = 1120, tallest = 460;  ///< pixels
 
-std::string css(Color c) {
-  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255),
-                     std::lround(c.blue * 255));
-}
-
 std::string swatch(const std::string& label, Color c) {
   return fmt::format("<span><i class=\"key disc\" style=\"background:{}\"></i>{}</span>", css(c),
                      escaped(label));
@@ -125,7 +120,7 @@ std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all,
   return some;
 }
 
-std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
+std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, const std::string& wanted) {
   if (!run.recorded) return "";
   if (pictured.empty()) {
     run.notes.emplace_back("run.h5 holds no frames, so there are no pictures of the specimen.");
@@ -137,7 +132,7 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
   if (frames.empty()) return "";
   const record::Frame rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
   for (record::Frame& frame : frames) complete_displacement(frame, rest);
-  const Stage stage = set_up(rest, frames, run.recorded->sets());
+  const Stage stage = set_up(rest, frames, run.recorded->sets(), wanted.empty() ? wanted_view(frames) : wanted);
   const bool bonds =
       std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
   const double shape = stage.views.front().camera.width / stage.views.front().camera.height;
@@ -148,7 +143,7 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
                                    [&](const record::FrameHead& h) { return h.name == frame.head.name; });
     body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
   }
-  return section("The specimen", body + "</div>");
+  return section("The specimen", body + "</div>") + field_pictures(stage, frames);
 }
 
 }  // namespace beadwork::report

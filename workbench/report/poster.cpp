@@ -50,7 +50,7 @@ void write_picture(const std::filesystem::path& run_folder, const std::filesyste
     shown.push_back(reader.read(head));
     complete_displacement(shown.back(), first);
   }
-  const Stage stage = set_up(first, shown, reader.sets());
+  const Stage stage = set_up(first, shown, reader.sets(), wanted_view(shown));
   std::vector<Image> images;
   for (const record::Frame& frame : shown)
     for (const View& view : stage.views)

@@ -48,10 +48,10 @@ std::string filled(std::string_view page, const std::string& title, const std::s
   return out;
 }
 
-std::string page_of(Run& run) {
+std::string page_of(Run& run, const std::string& view) {
   const std::vector<record::FrameHead> shown =
       run.recorded ? chosen(run.recorded->frames()) : std::vector<record::FrameHead>{};
-  const std::string seen = pictures(run, shown);  // first: it may add notes
+  const std::string seen = pictures(run, shown, view);  // first: it may add notes
   std::string body =
       facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
   body = notes(run) + body;
@@ -61,10 +61,10 @@ std::string page_of(Run& run) {
 }  // namespace
 }  // namespace report
 
-std::string write_report(const std::filesystem::path& run_folder) {
+std::string write_report(const std::filesystem::path& run_folder, const std::string& view) {
   report::Run run = report::open_run(run_folder);
   const std::filesystem::path file = run_folder / "report.html";
-  write_atomically(file, report::page_of(run));
+  write_atomically(file, report::page_of(run, view));
   return file.string();
 }
 

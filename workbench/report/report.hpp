@@ -10,7 +10,7 @@ namespace beadwork {
 /// Writes report.html into the folder and returns its path. Works on runs that are done, failed, interrupted
 /// or were killed; what is missing is said in the report. Throws MachineFailure if there is no run or the
 /// file cannot be written.
-std::string write_report(const std::filesystem::path& run_folder);
+std::string write_report(const std::filesystem::path& run_folder, const std::string& view = "");
 
 /// One PNG of the specimen for a page of text: a few frames below each other, without words. Needs a readable
 /// run.h5 with frames; throws MachineFailure otherwise.

@@ -15,8 +15,12 @@ std::string breaks(const Run&);
 std::string packing(const Run&);
 std::string deck_and_log(const Run&);
 
-/// Pictures of the frames `pictured`; what cannot be read is added to the run's notes.
-std::string pictures(Run&, const std::vector<record::FrameHead>& pictured);
+/// Pictures of the frames `pictured`, seen along the axis `wanted` (x, y, z; empty: as the frames say, or as shows most); what cannot
+/// be read is added to the run's notes.
+std::string pictures(Run&, const std::vector<record::FrameHead>& pictured, const std::string& wanted);
+struct Stage;
+/// What the frames recorded besides places, in colours with their bar.
+std::string field_pictures(const Stage&, const std::vector<record::Frame>& frames);
 
 /// Those that the run flagged, else all; of these at most `most`, spread evenly from the first to the last.
 std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all, std::size_t most = 8);

@@ -1,7 +1,6 @@
 #include "workbench/report/specimen.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -10,34 +9,7 @@ namespace beadwork::report {
 
 namespace {
 
-struct Box {
-  Vec3 low, high;
-  Vec3 size() const { return high - low; }
-};
-
 bool finite(const Vec3& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
-
-Vec3 at_rest(const record::Frame& frame, std::size_t i) {
-  return frame.displacement.empty() ? frame.position[i] : Vec3(frame.position[i] - frame.displacement[i]);
-}
-
-Vec3 magnified(const record::Frame& frame, std::size_t i, Real factor) {
-  return frame.displacement.empty() ? frame.position[i]
-                                    : Vec3(frame.position[i] + (factor - 1) * frame.displacement[i]);
-}
-
-template <class Place>
-Box box_of(const record::Frame& frame, const Place& place) {
-  Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
-  for (std::size_t i = 0; i < frame.position.size(); ++i) {
-    const Vec3 p = place(i);
-    if (!finite(p)) continue;
-    box.low = box.low.cwiseMin(p - Vec3::Constant(frame.radius[i]));
-    box.high = box.high.cwiseMax(p + Vec3::Constant(frame.radius[i]));
-  }
-  if (box.low.x() > box.high.x()) return {Vec3::Zero(), Vec3::Ones()};
-  return box;
-}
 
 bool is_interface(const Stage& stage, const record::Bonds& bonds) {
   return std::find(stage.interfaces.begin(), stage.interfaces.end(), bonds.family) != stage.interfaces.end();
@@ -80,76 +52,15 @@ Real choose_magnification(const std::vector<record::Frame>& shown, Real length) 
   return factor;
 }
 
-/// Mean square of the directions along x, y, z of the interface's bonds, or else of the bonds that are not
-/// sound; zero if there is nothing to look at.
-Vec3 directions(const Stage& stage, const record::Frame& frame) {
-  Vec3 sum = Vec3::Zero();
-  for (const record::Bonds& bonds : frame.bonds)
-    for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
-      if (stage.interfaces.empty() ? bonds.state[b] == State::intact : !is_interface(stage, bonds)) continue;
-      const auto [i, j] = bonds.ends[b];
-      const Vec3 along =
-          at_rest(frame, static_cast<std::size_t>(j)) - at_rest(frame, static_cast<std::size_t>(i));
-      const Real square = along.squaredNorm();
-      if (square > 0 && std::isfinite(square)) sum += along.cwiseProduct(along) / square;
-    }
-  return sum.sum() > 0 ? Vec3(sum / sum.sum()) : Vec3(Vec3::Zero());
-}
-
-struct Axes3 {
-  int right, up;
-};
-
-/// Right is the longer of the two axes in the picture; z stands up wherever it is not right.
-Axes3 looking_along(int axis, const Vec3& size) {
-  int a = (axis + 1) % 3, b = (axis + 2) % 3;
-  if (std::abs(size[a] - size[b]) < 0.2 * std::max(size[a], size[b]) ? b < a : size[b] > size[a])
-    std::swap(a, b);
-  return {a, b};
-}
-
 View view_along(Show show, const std::string& name, int axis, const Box& box, Real margin) {
-  static constexpr std::array<const char*, 3> letters = {"x", "y", "z"};
-  const auto [right, up] = looking_along(axis, box.size());
-  View view;
-  view.show = show;
-  view.name = name + ", " + letters[static_cast<std::size_t>(right)] + " to the right, " +
-              letters[static_cast<std::size_t>(up)] + " up";
-  view.camera.right = Vec3::Unit(right);
-  view.camera.up = Vec3::Unit(up);
-  view.camera.centre = 0.5 * (box.low + box.high);
-  view.camera.width = box.size()[right] + 2 * margin;
-  view.camera.height = box.size()[up] + 2 * margin;
-  return view;
-}
-
-int largest_axis(const Vec3& v) { return v.x() >= v.y() && v.x() >= v.z() ? 0 : v.y() >= v.z() ? 1 : 2; }
-int smallest_axis(const Vec3& v) { return largest_axis(-v); }
-
-/// Along which axes to look at the bodies, and at the bonds (-1: not at all).
-///
-/// A plane of weak bonds (an interface, a crack) is seen from its edge and from above, its longest side to
-/// the right. Around a fibre the bonds have no direction along it: look down the fibre. Otherwise the
-/// broadest face is shown.
-struct Choice {
-  int bodies, bonds;
-  const char* name;
-};
-Choice choose_axes(const Vec3& weak, const Vec3& size) {
-  if (weak.isZero()) return {smallest_axis(size), -1, "the specimen"};
-  const int normal = largest_axis(weak), least = smallest_axis(weak);
-  const Real middle = weak.sum() - weak[normal] - weak[least];
-  if (weak[normal] - middle > middle - weak[least]) {
-    const int a = (normal + 1) % 3, b = (normal + 2) % 3;
-    return {size[a] < size[b] ? a : b, normal, "side view"};
-  }
-  return {least, (least + 1) % 3, "face view"};
+  const Camera camera = camera_along(axis, box, margin);
+  return {show, name + ", " + orientation(camera), camera};
 }
 
 Box stage_box(const Stage& stage, const Box& rest, const std::vector<record::Frame>& shown) {
   Box all = rest;
   for (const record::Frame& frame : shown) {
-    const Box box = box_of(frame, [&](std::size_t i) { return magnified(frame, i, stage.magnification); });
+    const Box box = box_magnified(frame, stage.magnification);
     all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
   }
   // Splinters may fly far; the picture stays with the specimen.
@@ -271,15 +182,15 @@ void complete_displacement(record::Frame& frame, const record::Frame& first) {
 }
 
 Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
-             const std::map<std::string, std::vector<std::int64_t>>& sets) {
+             const std::map<std::string, std::vector<std::int64_t>>& sets, const std::string& wanted) {
   Stage stage;
-  const Box rest = box_of(first, [&](std::size_t i) { return at_rest(first, i); });
+  const Box rest = box_at_rest(first);
   const Real margin = std::max(mean_radius(first), 0.01 * rest.size().maxCoeff());
   stage.magnification = choose_magnification(shown, rest.size().maxCoeff());
   stage.interfaces = find_interfaces(shown);
   color_sets(stage, sets, first.position.size());
-  const Vec3 weak = shown.empty() ? Vec3(Vec3::Zero()) : directions(stage, shown.back());
-  const auto [bodies, bonds, name] = choose_axes(weak, rest.size());
+  const Weak weak = shown.empty() ? Weak{} : weak_bonds(shown.back(), stage.interfaces);
+  const auto [bodies, bonds, name] = choose_viewpoint(weak, rest.size(), wanted);
   const Box around = stage_box(stage, rest, shown);
   stage.views.push_back(view_along(Show::bodies, name, bodies, around, margin));
   if (bonds >= 0) {
@@ -300,7 +211,7 @@ Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown
 Camera cropped(const Stage& stage, const View& view, const record::Frame& frame) {
   Camera camera = view.camera;
   if (view.show == Show::bonds) return camera;
-  const Box box = box_of(frame, [&](std::size_t i) { return magnified(frame, i, stage.magnification); });
+  const Box box = box_magnified(frame, stage.magnification);
   const Real bottom = camera.centre.dot(camera.up) - 0.5 * camera.height, top = bottom + camera.height;
   const Real margin = 2 * mean_radius(frame);
   const Real low = std::max(bottom, box.low.dot(camera.up) - margin);
@@ -328,6 +239,13 @@ Counts counts(const Stage& stage, const record::Frame& frame) {
   return out;
 }
 
+std::string wanted_view(const std::vector<record::Frame>& shown) {
+  std::string wanted;
+  for (const record::Frame& frame : shown)
+    if (frame.head.view == "x" || frame.head.view == "y" || frame.head.view == "z") wanted = frame.head.view;
+  return wanted;
+}
+
 Image draw(const Stage& stage, const View& view, const record::Frame& frame, int width) {
   Canvas canvas(cropped(stage, view, frame), width);
   const Vec3 toward = view.camera.right.cross(view.camera.up);
@@ -335,6 +253,33 @@ Image draw(const Stage& stage, const View& view, const record::Frame& frame, int
     draw_bodies(canvas, stage, frame, toward);
   else
     draw_bonds(canvas, stage, frame, toward);
+  return canvas.image();
+}
+
+Image draw_field(const Stage& stage, const View& view, const record::Frame& frame, const std::string& field, bool of_bonds,
+                 const ColorScale& scale, int width) {
+  Canvas canvas(cropped(stage, view, frame), width);
+  const Vec3 toward = view.camera.right.cross(view.camera.up);
+  const auto place = [&](std::size_t i) { return magnified(frame, i, stage.magnification); };
+  const auto named = [&](const std::vector<record::FieldValues>& columns) {
+    return std::find_if(columns.begin(), columns.end(), [&](const auto& column) { return column.name == field; });
+  };
+  const auto own = of_bonds ? frame.fields.end() : named(frame.fields);
+  for (const std::size_t i : front_to_back(frame, place, toward))
+    canvas.sphere(place(i), frame.radius[i], own == frame.fields.end() ? palette::body : scale(own->values[i]));
+  canvas.darken_hollows(4 * mean_radius(frame), 0.42F);
+  if (!of_bonds) return canvas.image();
+  canvas.fade(0.3F);
+  canvas.flatten();
+  for (const record::Bonds& bonds : frame.bonds) {
+    const auto column = named(bonds.fields);
+    if (column == bonds.fields.end()) continue;
+    for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
+      const auto i = static_cast<std::size_t>(bonds.ends[b][0]), j = static_cast<std::size_t>(bonds.ends[b][1]);
+      const Vec3 from = place(i), to = place(j);
+      if (finite(from) && finite(to)) canvas.segment(from, to, 0.5 * std::min(frame.radius[i], frame.radius[j]), scale(column->values[b]));
+    }
+  }
   return canvas.image();
 }
 

@@ -8,16 +8,18 @@
 
 #include "core/io/frame_reader.hpp"
 #include "core/io/picture.hpp"
+#include "workbench/report/color_scale.hpp"
+#include "workbench/report/viewpoint.hpp"
 
 namespace beadwork::report {
 
 /// Told apart by lightness as well as hue, so that they stay apart for colour-blind eyes and on grey paper.
 namespace palette {
-constexpr Color elastic = color(0x7FA8CC), softening = color(0xF5B02E), broken = color(0xB3123F);
-constexpr Color body = color(0xC3CCD6);
-/// For named sets: quiet, so that softening and broken stand out.
-constexpr Color sets[] = {color(0xC9CED6), color(0x9FB4C7), color(0xD6CBB3), color(0xA9C2AE),
-                          color(0xC4B2CC), color(0x8D99A8), color(0xDDB9A8), color(0x8FBDBD)};
+constexpr Color elastic = color(0x5B97D1), softening = color(0xF5A300), broken = color(0xB3123F);
+constexpr Color body = color(0xC8CACC);
+/// For named sets: greys, greens and violets, so that none is taken for the blue, amber and crimson of the states.
+constexpr Color sets[] = {color(0xD3D3D3), color(0xA3AAA0), color(0xA9C8A4), color(0xC9B8DA),
+                          color(0x7F8C80), color(0xD9DCC0), color(0x9A86B5), color(0x86B39B)};
 }  // namespace palette
 
 enum class Show {
@@ -49,9 +51,11 @@ struct Counts {
   std::size_t elastic = 0, softening = 0, broken = 0;
 };
 
-/// The stage for frames that show one specimen; `first` is its state of rest.
+/// The stage for frames that show one specimen; `first` is its state of rest, `wanted` the axis to look along (may be empty).
 Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
-             const std::map<std::string, std::vector<std::int64_t>>& sets);
+             const std::map<std::string, std::vector<std::int64_t>>& sets, const std::string& wanted);
+/// The axis that the newest of these frames wants to be looked along; empty if none says.
+std::string wanted_view(const std::vector<record::Frame>& shown);
 
 /// Bonds of the interfaces by state; of all families if there is no interface.
 Counts counts(const Stage&, const record::Frame&);
@@ -60,6 +64,8 @@ Counts counts(const Stage&, const record::Frame&);
 Camera cropped(const Stage&, const View&, const record::Frame&);
 
 Image draw(const Stage&, const View&, const record::Frame&, int width);
+/// The same view with a recorded field in colours: of the elements, or of the bonds as segments over a faint specimen.
+Image draw_field(const Stage&, const View&, const record::Frame&, const std::string& field, bool of_bonds, const ColorScale&, int width);
 
 /// Pixels for the view when the largest view of the stage is to fit into the given room: all have one scale.
 int width_in_pixels(const Stage&, const View&, int widest, int tallest);
