@@ -185,9 +185,9 @@ TEST_F(Report, recorded_fields_are_drawn_with_their_colour_bar) {
   request.view = "y";
   recorder.write({0, 0, 0}, request, domain);
   const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("<b>pull</b> of the bonds<div class=\"colorbar\"><span>-3</span>"));  // as far below zero as above
+  EXPECT_THAT(html, HasSubstr("<b>pull</b> of the bonds<div class=\"colorbar\"><span>−3</span>"));  // as far below zero as above
   EXPECT_THAT(html, HasSubstr("<span>3 N</span>"));
-  EXPECT_THAT(html, HasSubstr("<b>heat</b>: 300 K everywhere."));
+  EXPECT_THAT(html, HasSubstr("<b>heat</b>: 300 K everywhere; 1 value not a number."));
   EXPECT_THAT(html, HasSubstr("Seen along y, "));  // as the snapshot said
 }
 

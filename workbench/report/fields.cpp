@@ -65,6 +65,8 @@ std::string bar(const ColorScale& scale, const Scale& unit) {
                      label(scale.low), scale.css(), scale.cut ? "≥ " : "", label(scale.high), unit.unit == "1" || unit.unit.empty() ? "" : " " + unit.unit);
 }
 
+std::string not_numbers(std::size_t many) { return plural(static_cast<std::int64_t>(many), "value") + " not a number"; }
+
 std::string figure_of(const Stage& stage, const Found& field, const std::vector<record::Frame>& frames) {
   const std::vector<Real> values = values_in(frames, field);
   const std::size_t odd = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](Real v) { return !std::isfinite(v); }));
@@ -73,10 +75,10 @@ std::string figure_of(const Stage& stage, const Found& field, const std::vector<
   std::string head = "<b>" + escaped(title_of(field)) + "</b>" + (field.of_bonds ? " of the bonds" : "");
   if (scale.constant()) {
     const std::string everywhere = values.size() > odd ? number(scale.low * unit.factor) + (unit.unit == "1" ? "" : " " + unit.unit) : "no numbers";
-    return "<p>" + head + ": " + everywhere + " everywhere.</p>";
+    return "<p>" + head + ": " + everywhere + " everywhere" + (odd > 0 ? "; " + not_numbers(odd) : "") + ".</p>";
   }
   std::string out = "<figure class=\"field\"><figcaption>" + head + bar(scale, unit);
-  if (odd > 0) out += "<span class=\"note\">" + plural(static_cast<std::int64_t>(odd), "value") + " not a number, in grey</span>";
+  if (odd > 0) out += "<span class=\"note\">" + not_numbers(odd) + ", in grey</span>";
   out += "</figcaption><div class=\"frames\">";
   const View& view = stage.views.front();
   for (const record::Frame& frame : frames) {
