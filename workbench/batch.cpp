@@ -43,6 +43,7 @@ BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& v
   DeckArguments deck = arguments.deck;
   for (std::size_t k = 0; k < values.size(); ++k) deck.settings.push_back(variations[k].name + "=" + values[k]);
   for (const std::string& setting : deck.settings) run.command.insert(run.command.end(), {"--set", setting});
+  if (deck.no_plugins) run.command.push_back("--no-plugins");
   for (const std::string& library : deck.libraries) run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
   // Every deck is checked before the first one runs.
   run.done = is_done(run, load_scene(deck).deck->sha256);

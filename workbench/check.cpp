@@ -1,5 +1,4 @@
-#include <cstdio>
-
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -14,8 +13,8 @@ void add_check(CLI::App& app, Chosen& chosen) {
   verb->callback([&chosen, arguments, verbose] {
     chosen = [arguments, verbose] {
       const Loaded loaded = load_scene(*arguments);
-      if (*verbose) std::printf("%s", loaded.scene->resolved.c_str());
-      std::printf("%s: no errors\n", arguments->path.c_str());
+      if (*verbose) write_out(loaded.scene->resolved);
+      say("{}: no errors\n", arguments->path);
       return 0;
     };
   });

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -113,7 +113,7 @@ int describe(const DescribeArguments& arguments) {
     text = as_markdown(manual);
   else
     text = arguments.plugin.empty() ? as_list(manual) : as_text(manual, terminal_width());
-  std::fputs(text.c_str(), stdout);
+  write_out(text);
   return 0;
 }
 

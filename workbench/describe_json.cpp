@@ -1,4 +1,4 @@
-#include <nlohmann/json.hpp>
+#include "core/loop/json_text.hpp"
 
 #include "workbench/describe.hpp"
 
@@ -37,7 +37,7 @@ std::string as_json(const Manual& manual) {
     for (const FieldUse* use : each.plugin->uses()) plugin["fields"].push_back(json_of(each.kind, *use));
     json.push_back(std::move(plugin));
   }
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 }  // namespace beadwork

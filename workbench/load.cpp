@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "core/base/failure.hpp"
+#include "core/base/readable.hpp"
 #include "core/base/text.hpp"
 #include "core/deck/read.hpp"
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -13,6 +13,7 @@ void DeckArguments::add_to(CLI::App& verb) {
   verb.add_option("deck", path, "The deck, an XML file")->required();
   verb.add_option("--set", settings, "Gives a parameter of the deck another value: name=value")->allow_extra_args(false);
   verb.add_option("--plugins", libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
+  verb.add_flag("--no-plugins", no_plugins, "Loads no library that the deck itself names: for decks from elsewhere");
 }
 
 std::string shown(const Fault& fault) {
@@ -20,6 +21,32 @@ std::string shown(const Fault& fault) {
   if (fault.code() == ExitCode::interrupted) return text;
   return text.find("error: ") == std::string::npos ? "error: " + text : text;
 }
+
+namespace {
+
+// Those of the deck's 'plugins'.
+std::vector<std::filesystem::path> named_libraries(const Deck& deck, bool none, Complaints& complaints) {
+  const Attribute* named = deck.root->find("plugins");
+  if (!named) return {};
+  const auto words = read_words(*named, deck.scope, complaints);
+  if (!words) return {};
+  if (none) {
+    complaints.warning(named->value_at, "these libraries are not loaded (--no-plugins), so their plugins are unknown");
+    return {};
+  }
+  std::vector<std::filesystem::path> libraries;
+  for (const std::string& word : *words) {
+    const std::string path = path_beside(deck.path, word), why = why_unreachable(path);
+    std::error_code error;
+    if (std::filesystem::status(path, error).type() == std::filesystem::file_type::not_found)
+      throw LibraryFailure(fmt::format("{}: error: no plugin library \"{}\": there is no file {}", named->value_at.where(), word, path));
+    if (!why.empty()) refuse(named->value_at, fmt::format("cannot read plugin library \"{}\": {}", path, why));
+    libraries.emplace_back(path);
+  }
+  return libraries;
+}
+
+}  // namespace
 
 Loaded load_scene(const DeckArguments& arguments) {
   std::vector<Override> overrides;
@@ -33,20 +60,12 @@ Loaded load_scene(const DeckArguments& arguments) {
   Loaded loaded;
   loaded.deck = read_deck(arguments.path, overrides, complaints);
   if (!loaded.deck) complaints.throw_if_any();
-  std::vector<std::filesystem::path> extra;
-  if (const Attribute* plugins = loaded.deck->root->find("plugins"))
-    if (const auto words = read_words(*plugins, loaded.deck->scope, complaints))
-      for (const std::string& word : *words) {
-        extra.push_back(std::filesystem::path(arguments.path).parent_path() / word);
-        if (!std::filesystem::exists(extra.back()))
-          throw LibraryFailure(fmt::format("{}: error: no plugin library \"{}\": there is no file {}", plugins->value_at.where(), word,
-                                           extra.back().string()));
-      }
+  std::vector<std::filesystem::path> extra = named_libraries(*loaded.deck, arguments.no_plugins, complaints);
   extra.insert(extra.end(), arguments.libraries.begin(), arguments.libraries.end());
   loaded.catalogue = Catalogue::open(extra);
   loaded.scene = Scene::assemble(*loaded.deck, loaded.catalogue, complaints);
   complaints.throw_if_any();
-  if (complaints.warnings() > 0) std::fprintf(stderr, "%s", complaints.text().c_str());
+  if (complaints.warnings() > 0) write_error(complaints.text());
   return loaded;
 }
 

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "core/base/failure.hpp"
 #include "core/version.hpp"
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 using namespace beadwork;
@@ -29,12 +29,14 @@ int main(int argc, char** argv) {
   try {
     return chosen();
   } catch (const Fault& fault) {
-    std::fprintf(stderr, "%s\n", shown(fault).c_str());
+    say_error("{}\n", shown(fault));
     return static_cast<int>(fault.code());
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "error: out of memory\n");
+    write_error("error: out of memory\n");
+  } catch (const std::filesystem::filesystem_error& error) {
+    say_error("error: cannot use '{}': {}\n", error.path1().string(), error.code().message());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    say_error("error: {}\n", error.what());
   }
   return static_cast<int>(ExitCode::machine);
 }

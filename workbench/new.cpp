@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "workbench/describe.hpp"
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -90,14 +90,14 @@ int make_deck(const NewArguments& arguments) {
   const std::filesystem::path out = arguments.out;
   const std::string text = skeleton_deck(chosen, out.empty() ? "new" : out.stem().string());
   if (out.empty()) {
-    std::fputs(text.c_str(), stdout);
+    write_out(text);
     return 0;
   }
   if (std::filesystem::exists(out)) throw DeckFailure(fmt::format("error: '{}' exists already; choose another name", out.string()));
   std::ofstream file(out);
   file << text;
   if (!file.flush()) throw MachineFailure(fmt::format("error: cannot write '{}'", out.string()));
-  std::printf("%s: now fill in what 'beadwork check %s' asks for\n", out.c_str(), out.c_str());
+  say("{0}: now fill in what 'beadwork check {0}' asks for\n", out.string());
   return 0;
 }
 

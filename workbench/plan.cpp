@@ -12,6 +12,7 @@
 #include "core/loop/forecast.hpp"
 #include "core/loop/run.hpp"
 #include "workbench/progress.hpp"
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -28,7 +29,9 @@ struct PlanArguments {
 class Scratch {
  public:
   Scratch() {
-    std::string path = (std::filesystem::temp_directory_path() / "beadwork-plan-XXXXXX").string();
+    std::error_code error;
+    std::string path = (std::filesystem::temp_directory_path(error) / "beadwork-plan-XXXXXX").string();
+    if (error) throw MachineFailure(fmt::format("error: no folder for temporary files (TMPDIR): {}", error.message()));
     if (!::mkdtemp(path.data())) throw MachineFailure("error: cannot make a folder in " + path);
     path_ = path;
   }
@@ -97,9 +100,9 @@ std::string times(const Scene& scene, const Trial& trial, int threads) {
 int plan(const PlanArguments& arguments) {
   const Loaded loaded = load_scene(arguments.deck);
   Scene& scene = *loaded.scene;
-  std::printf("%s: scene '%s'\n\n%s", arguments.deck.path.c_str(), scene.name.c_str(), plan_text(scene).c_str());
+  say("{}: scene '{}'\n\n{}", arguments.deck.path, scene.name, plan_text(scene));
   if (!arguments.fill) {
-    std::printf("\nWith --fill: numbers of elements and bonds, megabytes, time step, steps and wall time\n");
+    say("\nWith --fill: numbers of elements and bonds, megabytes, time step, steps and wall time\n");
     return 0;
   }
   std::fflush(stdout);
@@ -110,13 +113,13 @@ int plan(const PlanArguments& arguments) {
   Progress progress([](const std::string&) {});
   options.warn = [&](const std::string& warning) {
     progress.hide();
-    std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    say_error("warning: {}\n", warning);
   };
   options.progress = [&](const Headway& headway) { progress.show(headway); };
   Run run(scene, loaded.catalogue, folder, options);
   const Trial trial = run.trial(2);
   progress.hide();
-  std::printf("%s%s", counts(*scene.domain).c_str(), times(scene, trial, arguments.threads).c_str());
+  say("{}{}", counts(*scene.domain), times(scene, trial, arguments.threads));
   return 0;
 }
 

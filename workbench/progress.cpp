@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/utf8.hpp"
+
 namespace beadwork {
 
 namespace {
@@ -115,7 +117,7 @@ void Progress::show(const Headway& headway) {
 }
 
 void Progress::write(const std::string& line) {
-  std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
+  std::fprintf(stderr, "\r\x1b[K%s", safe_text(line).c_str());
   std::fflush(stderr);
   shown_ = true;
 }

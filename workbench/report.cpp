@@ -1,7 +1,6 @@
 #include "workbench/report/report.hpp"
 
-#include <cstdio>
-
+#include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -15,7 +14,7 @@ void add_report(CLI::App& app, Chosen& chosen) {
   verb->add_option("--view", *view, "Axis along which the pictures look; where absent, as the snapshots say, or as shows most")->check(CLI::IsMember({"x", "y", "z"}));
   verb->callback([&chosen, folder, view] {
     chosen = [folder, view] {
-      std::printf("%s\n", write_report(*folder, *view).c_str());
+      say("{}\n", write_report(*folder, *view));
       return 0;
     };
   });

@@ -1,5 +1,6 @@
 #include "core/loop/run.hpp"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -9,6 +10,8 @@
 #include <thread>
 
 #include "core/base/failure.hpp"
+#include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
 #include "core/version.hpp"
 #include "workbench/progress.hpp"
 #include "workbench/verbs.hpp"
@@ -29,11 +32,27 @@ struct RunArguments {
   double checkpoint_minutes = 10;
 };
 
+// The words of a line, fit for a terminal and a file, whoever said them.
+class SafeWords final : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+    const std::string safe = safe_text({message.payload.data(), message.payload.size()});
+    out.append(safe.data(), safe.data() + safe.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<SafeWords>(); }
+};
+
+std::unique_ptr<spdlog::formatter> line_format(const std::string& pattern) {
+  auto format = std::make_unique<spdlog::pattern_formatter>();
+  format->add_flag<SafeWords>('*').set_pattern(pattern);
+  return format;
+}
+
 std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder, const RunArguments& arguments) {
   auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !arguments.resume);
   auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-  file->set_pattern("%Y-%m-%d %H:%M:%S %l %v");
-  console->set_pattern("%v");
+  file->set_formatter(line_format("%Y-%m-%d %H:%M:%S %l %*"));
+  console->set_formatter(line_format("%*"));
   console->set_level(arguments.quiet ? spdlog::level::warn : spdlog::level::info);
   auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, console});
   log->flush_on(spdlog::level::info);
@@ -89,6 +108,12 @@ int run(const RunArguments& arguments) {
 }  // namespace
 
 void add_run(CLI::App& app, Chosen& chosen) {
+  const CLI::Validator minutes(
+      [](const std::string& text) {
+        const auto number = parse_number(text);
+        return number && *number > 0 ? std::string() : "a number of minutes > 0 is wanted, got \"" + text + "\"";
+      },
+      "MINUTES > 0");
   CLI::App* verb = app.add_subcommand("run", "Runs a deck");
   verb->footer("Example: beadwork run xml-cases/dcb/quick.xml --out out/dcb --threads 2");
   auto arguments = std::make_shared<RunArguments>();
@@ -98,7 +123,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
-  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(minutes)->capture_default_str();
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -28,6 +28,7 @@ struct DeckArguments {
   std::string path;
   std::vector<std::string> settings;   ///< name=value
   std::vector<std::string> libraries;  ///< files or folders
+  bool no_plugins = false;             ///< the libraries that the deck itself names are not loaded
 
   void add_to(CLI::App& verb);
 };

@@ -5,12 +5,14 @@
 #include <tuple>
 
 #include "core/base/failure.hpp"
+#include "core/base/utf8.hpp"
 
 namespace beadwork {
 
 namespace {
 
 constexpr std::size_t most_shown = 50;    // a deck of another program complains about every line
+constexpr std::size_t longest_message = 2000;  // bytes; what is longer quotes some value of megabytes
 constexpr std::size_t widest_line = 160;  // columns; of longer lines the part around the caret is shown
 
 std::string_view line_of(std::string_view text, int line) {
@@ -26,16 +28,6 @@ std::string_view line_of(std::string_view text, int line) {
 }
 
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
-
-// Length of the character in UTF-8 that the text begins with; 0 if its first byte begins none.
-std::size_t character_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k)
-    if (starts_character(text[k])) return 0;
-  return length;
-}
 
 // What a terminal shows of a character: bytes that are no text are spelt out.
 std::string visible(std::string_view text, std::size_t length) {
@@ -70,6 +62,14 @@ std::string excerpt(const Location& at) {
   return shown + "\n" + padding + "^\n";
 }
 
+// Its beginning says what is wrong, its end mostly why.
+std::string without_middle(const std::string& message) {
+  std::size_t head = longest_message / 2, tail = message.size() - longest_message / 4;
+  while (head > 0 && !starts_character(message[head])) --head;
+  while (tail < message.size() && !starts_character(message[tail])) ++tail;
+  return message.substr(0, head) + " ... " + message.substr(tail);
+}
+
 std::string counted(int number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
@@ -77,6 +77,7 @@ std::string counted(int number, const std::string& what) {
 }  // namespace
 
 void Complaints::add(const Location& at, bool is_error, std::string message) {
+  if (message.size() > longest_message) message = without_middle(message);
   if (!seen_.insert(at.where() + (is_error ? ": error: " : ": warning: ") + message).second) return;
   ++(is_error ? errors_ : warnings_);
   list_.push_back({at, is_error, std::move(message)});

@@ -1,14 +1,41 @@
 #include "core/base/readable.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <cstring>
+
 namespace beadwork {
 
-std::string why_unreadable(const std::filesystem::path& file) {
+namespace fs = std::filesystem;
+
+std::string why_unreachable(const fs::path& place) {
   std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) return "there is no such file";
-  if (std::filesystem::is_directory(status)) return "it is a folder";
-  if (!std::filesystem::is_regular_file(status)) return "it is no ordinary file";
+  const auto status = fs::status(place, error);
+  if (status.type() == fs::file_type::not_found) return "there is no such file";
+  if (!fs::status_known(status)) return error.message();
+  if (::access(place.c_str(), R_OK) != 0) return std::strerror(errno);
   return {};
+}
+
+std::string why_unreadable(const fs::path& file) {
+  if (std::string why = why_unreachable(file); !why.empty()) return why;
+  std::error_code error;
+  if (fs::is_directory(file, error)) return "it is a folder";
+  if (!fs::is_regular_file(file, error)) return "it is no ordinary file";
+  return {};
+}
+
+std::string path_beside(const std::string& beside, const std::string& file) {
+  if (file.size() > PATH_MAX) return file;  // no file has such a name, and to take it apart would take long
+  return (fs::path(beside).parent_path() / file).lexically_normal().string();
+}
+
+std::string canonical_path(const std::string& file) {
+  std::error_code error;
+  const fs::path canonical = file.size() > PATH_MAX ? fs::path() : fs::weakly_canonical(file, error);
+  return error || canonical.empty() ? file : canonical.string();
 }
 
 }  // namespace beadwork

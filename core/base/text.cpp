@@ -7,11 +7,11 @@
 #include <iterator>
 #include <span>
 
+#include "core/base/utf8.hpp"
+
 namespace beadwork {
 
 namespace {
-
-constexpr std::string_view blanks = " \t\r\n\f\v";
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -150,24 +150,29 @@ std::string snake_from_kebab(std::string_view name) {
 
 std::string xml_escaped(std::string_view text) {
   std::string result;
-  for (char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (c == '\n')
-      result += "&#10;";
-    else if (c == '\r')
-      result += "&#13;";
-    else if (c == '\t')
-      result += "&#9;";
-    else
-      result += c;
+  const auto escape = [&](std::string_view line) {
+    for (const char c : safe_text(line)) {
+      if (c == '&')
+        result += "&amp;";
+      else if (c == '<')
+        result += "&lt;";
+      else if (c == '>')
+        result += "&gt;";
+      else if (c == '"')
+        result += "&quot;";
+      else if (c == '\n')
+        result += "&#10;";
+      else if (c == '\t')
+        result += "&#9;";
+      else
+        result += c;
+    }
+  };
+  for (std::size_t turn; (turn = text.find('\r')) != std::string_view::npos; text.remove_prefix(turn + 1)) {
+    escape(text.substr(0, turn));
+    result += "&#13;";
   }
+  escape(text);
   return result;
 }
 

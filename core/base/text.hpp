@@ -17,6 +17,10 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
                          std::string_view open = "'", std::string_view close = "'");
 
+/// What separates words. Blanks beyond ASCII become these where a text comes in (with_plain_blanks in utf8.hpp).
+inline constexpr std::string_view blanks = " \t\r\n\f\v";
+inline bool is_blank(char c) { return blanks.find(c) != std::string_view::npos; }
+
 /// What some editors and tables put before a text in UTF-8; it is no part of the text.
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
@@ -32,7 +36,7 @@ std::vector<std::string> split(std::string_view text, char separator);  ///< kee
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 std::string kebab_from_snake(std::string_view name);  ///< free_filling -> free-filling
 std::string snake_from_kebab(std::string_view name);
-std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes
+std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes; safe_text
 
 /// A line that stands in one of two texts only.
 struct OddLine {

@@ -10,6 +10,8 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/base/unit_names.hpp"
+#include "core/base/utf8.hpp"
 
 namespace beadwork {
 
@@ -76,20 +78,15 @@ std::string Dimension::name() const {
   return (above.empty() ? "1" : above) + below;
 }
 
-// ---- Units: UDUNITS knows the names, the products are ours, because it takes "m)" for a metre and m^0.5 for
-// 5
+// ---- Units: UDUNITS knows their sizes; which names pass (unit_names.hpp) and products are ours, because it takes "m)" for a
+// metre and m^0.5 for 5
 
 namespace {
 
 /// What UDUNITS says about one name without exponents.
-struct NamedUnit {
-  Unit unit;
-  bool has_offset = false;
-};
-
 struct Reading {
   Unit unit;
-  bool usable = true, has_offset = false;
+  bool usable = true;
 };
 
 void multiply_basic(const ut_unit* basic, int exponent, Reading& reading) {
@@ -131,7 +128,7 @@ constexpr ut_visitor visitor{visit_basic, visit_product, visit_scaled, refuse_ti
 ut_status visit_scaled(const ut_unit*, double scale, const ut_unit* underlying, double offset,
                        void* reading) {
   static_cast<Reading*>(reading)->unit.scale *= scale;
-  if (offset != 0) static_cast<Reading*>(reading)->has_offset = true;
+  if (offset != 0) static_cast<Reading*>(reading)->usable = false;
   return ut_accept_visitor(underlying, &visitor, reading);
 }
 
@@ -146,9 +143,10 @@ ut_system* database() {
 
 /// The database is one global thing that is not made for threads, and slow: hence the lock, and a memory of
 /// known names.
-std::optional<NamedUnit> look_up(std::string_view name) {
+std::optional<Unit> look_up(std::string_view name) {
   static std::mutex mutex;
-  static std::map<std::string, NamedUnit, std::less<>> known;
+  static std::map<std::string, Unit, std::less<>> known;
+  if (unit_name(name).verdict != UnitName::Verdict::accepted) return {};
   const std::lock_guard lock(mutex);
   if (const auto found = known.find(name); found != known.end()) return found->second;
   const std::string spelt(name == "deg" ? "degree" : name);  // UDUNITS knows only the whole word
@@ -157,7 +155,7 @@ std::optional<NamedUnit> look_up(std::string_view name) {
   if (!unit) return {};
   Reading reading;
   if (ut_accept_visitor(unit.get(), &visitor, &reading) != UT_SUCCESS || !reading.usable) return {};
-  return known.emplace(std::string(name), NamedUnit{reading.unit, reading.has_offset}).first->second;
+  return known.emplace(std::string(name), reading.unit).first->second;
 }
 
 // A power of ten that came out of a product of powers of ten, without its rounding errors.
@@ -168,17 +166,16 @@ double without_dust(double scale) {
   return std::abs(scale / power_of_ten - 1) < 1e-12 ? power_of_ten : scale;
 }
 
-// ---- The grammar: factor {(. * /) factor}, factor = name [[^] integer] | name ^ decimal
+// ---- The grammar: factor {(. * /)  factor}, factor = name [[^] integer] | name ^ decimal
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Letters, %, and the few signs beyond ASCII that stand in units: how many bytes one takes here, 0 if none
-/// does.
+/// Letters, %, and the few signs beyond ASCII that stand in names of units: how many bytes one takes here, 0 if none does.
 std::size_t letter_length(std::string_view text) {
   if (text.empty()) return 0;
   const char c = text.front();
   if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%' || c == '_') return 1;
-  for (const std::string_view sign : {"\u00B5", "\u03BC", "\u00B0", "\u03A9", "\u00B2", "\u00B3"})
+  for (const std::string_view sign : {"\u00B5", "\u03BC", "\u00B0", "\u03A9", "\u2126", "\u00C5", "\u212B", "\u03C0", "\u2103", "\u2109"})
     if (text.starts_with(sign)) return sign.size();
   return 0;
 }
@@ -189,12 +186,32 @@ std::string_view leading_name(std::string_view text) {
   return text.substr(0, length);
 }
 
+/// The sign that joins two factors: how many bytes it takes here, 0 if there is none.
+std::size_t joint_length(std::string_view text) {
+  if (text.empty()) return 0;
+  if (text[0] == '.' || text[0] == '*' || text[0] == '/') return 1;
+  for (const std::string_view dot : {"\u00B7", "\u22C5"})
+    if (text.starts_with(dot)) return dot.size();
+  return 0;
+}
+
+/// An exponent in raised digits: its value and length; 1 and 0 if there is none.
+std::pair<double, std::size_t> raised_exponent(std::string_view text) {
+  constexpr std::string_view digits[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  constexpr std::string_view minus = "\u207B";
+  const std::size_t begin = text.starts_with(minus) ? minus.size() : 0;
+  for (int digit = 0; digit < 10; ++digit)
+    if (text.substr(begin).starts_with(digits[digit])) return {begin > 0 ? -digit : digit, begin + digits[digit].size()};
+  return {1, 0};
+}
+
 enum class Where { alone, in_expression };
 constexpr double largest_exponent = 20;
 
 /// The exponent that text begins with ("^-0.5", "2", alone also "-1") and its length; 1 and 0 if there is
 /// none.
 std::pair<double, std::size_t> leading_exponent(std::string_view text, Where where) {
+  if (const auto raised = raised_exponent(text); raised.second > 0) return raised;
   std::size_t at = 0;
   const bool hat = text.starts_with('^');
   if (hat) at = 1;
@@ -221,7 +238,7 @@ std::optional<LeadingUnit> leading_unit(std::string_view text, Where where,
   for (;;) {
     const std::string_view name = leading_name(text.substr(at));
     const auto found = name.empty() || name.size() > 64 ? std::nullopt : look_up(name);
-    if (!found || found->has_offset) {
+    if (!found) {
       if (unknown) *unknown = name;
       break;
     }
@@ -230,12 +247,13 @@ std::optional<LeadingUnit> leading_unit(std::string_view text, Where where,
     const auto [exponent, length] = leading_exponent(text.substr(at), where);
     at += length;
     if (std::abs(exponent) > largest_exponent) return {};
-    result.unit.scale *= std::pow(found->unit.scale, sign * exponent);
-    result.unit.dimension = result.unit.dimension * power(found->unit.dimension, sign * exponent);
+    result.unit.scale *= std::pow(found->scale, sign * exponent);
+    result.unit.dimension = result.unit.dimension * power(found->dimension, sign * exponent);
     result.length = at;
-    if (at >= text.size() || (text[at] != '.' && text[at] != '*' && text[at] != '/')) break;
+    const std::size_t joint = joint_length(text.substr(at));
+    if (joint == 0) break;
     sign = text[at] == '/' ? -1 : 1;
-    ++at;
+    at += joint;
   }
   if (result.length == 0 || !std::isnormal(result.unit.scale)) return {};
   result.unit.scale = without_dust(result.unit.scale);
@@ -274,11 +292,13 @@ std::string why_no_unit(std::string_view text) {
   const std::string quoted = "unknown unit \"" + std::string(text) + "\"";
   std::string_view unknown;
   leading_unit(text, Where::alone, &unknown);
+  if (const auto odd = first_lookalike(text)) return quoted + ": it holds " + named_character(text.substr(*odd));
   if (unknown.empty()) return quoted + "; units look like N/mm^3 or J.m-2, without blanks";
-  if (const auto found = look_up(unknown.substr(0, 64)); found && found->has_offset)
-    return "unit \"" + std::string(unknown) + "\" has an offset; give the temperature in K";
+  const UnitName name = unit_name(unknown);
+  if (name.verdict == UnitName::Verdict::refused) return "unit \"" + std::string(unknown) + "\" is refused: " + name.instead;
   const std::string part = unknown == text ? "" : " ('" + std::string(unknown) + "')";
-  const std::string near = closest(unknown, usual);
+  std::string near = closest(unknown, usual);
+  if (near.empty()) near = closest(unknown, accepted_unit_names());
   return quoted + part + (near.empty() ? "" : ". Did you mean \"" + near + "\"?");
 }
 

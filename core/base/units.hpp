@@ -1,6 +1,6 @@
 #pragma once
-// Quantities and their units. The names of units are those of UDUNITS-2; inside the program every value is in
-// SI.
+// Quantities and their units. The names of units are those of UDUNITS-2 that have one reading (unit_names.hpp); inside the
+// program every value is in SI.
 
 #include <array>
 #include <optional>
@@ -37,7 +37,7 @@ struct Unit {
 };
 
 /// A unit such as "mm", "N/mm^3", "J/m2", "kg.m-1.s-2", "MPa.m^0.5", "1/s", "percent" or "1": names joined by
-/// . * / with no spaces; t is the tonne. Nothing if unknown or if it has an offset (degC). Throws
+/// . * / with no spaces; t is the tonne. Nothing if unknown, if it is refused (ton) or has an offset (degC). Throws
 /// MachineFailure if the UDUNITS database cannot be read. Safe to call from several threads.
 std::optional<Unit> find_unit(std::string_view text);
 
@@ -50,7 +50,7 @@ struct LeadingUnit {
 };
 std::optional<LeadingUnit> find_leading_unit(std::string_view text);
 
-/// Why `text` is no unit, with a suggestion: `unknown unit "mmm". Did you mean "mm"?`
+/// Why `text` is no unit, with what to write: `unknown unit "mmm". Did you mean "mm"?`
 std::string why_no_unit(std::string_view text);
 
 /// A value in SI printed in a unit: format_quantity(0.014, "mm") is "14 mm". The unit must exist.

@@ -1,9 +1,9 @@
 #include "core/deck/deck.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
+#include "core/base/readable.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/text.hpp"
 #include "core/deck/tokens.hpp"
@@ -15,14 +15,12 @@ namespace {
 
 constexpr std::size_t deepest_include = 16, most_files = 256;
 
-/// What an editor adds to the root so that it finds the schema; it says nothing about the scene.
-bool is_for_editors(const Attribute& attribute) {
-  return attribute.name.starts_with("xmlns") || attribute.name.starts_with("xsi:");
-}
-
 class DeckReader {
  public:
   DeckReader(Deck& deck, Complaints& complaints) : deck_(deck), complaints_(complaints) {}
+
+  /// False if a parameter or an include could not be read: what is said about a deck without it would mislead.
+  bool is_whole() const { return is_whole_; }
 
   /// The tree of a file, with its includes spliced in and its parameters taken out. Null if there is none.
   std::unique_ptr<Node> read(const std::string& path, const Location& asked_at) {
@@ -35,8 +33,7 @@ class DeckReader {
       complaints_.error(root->at, "the root must be <scene>, not <" + root->tag + ">");
       return nullptr;
     }
-    std::erase_if(root->attributes, is_for_editors);
-    chain_.push_back({path, std::filesystem::weakly_canonical(path).string()});
+    chain_.push_back({path, canonical_path(path)});
     settle(*root, true);
     chain_.pop_back();
     return root;
@@ -86,23 +83,22 @@ class DeckReader {
     if (!is_in_scene)
       complaints_.error(node.at,
                         "parameters hold for the whole deck: <parameter> stands directly in <scene>");
-    if (!has_just(node, {"name", "value"})) return;
+    if (!has_just(node, {"name", "value"})) return miss();
     const Attribute &name = *node.find("name"), &value = *node.find("value");
     if (const std::string why = why_no_name(name.value); !why.empty()) {
       complaints_.error(name.value_at, "the name of a parameter " + why + ", got \"" + name.value + "\"");
-      return;
+      return miss();
     }
     deck_.scope.add({name.value, value.value, name.value_at, value.value_at, chain_.size() > 1}, complaints_);
   }
 
   void splice(const Node& include, Node& into) {
-    if (!has_just(include, {"file"})) return;
+    if (!has_just(include, {"file"})) return miss();
     const Attribute& file = *include.find("file");
-    const auto path =
-        (std::filesystem::path(chain_.back().path).parent_path() / file.value).lexically_normal().string();
-    if (!may_include(path, file.value_at)) return;
+    const std::string path = path_beside(chain_.back().path, file.value);
+    if (!may_include(path, file.value_at)) return miss();
     const auto root = read(path, file.value_at);
-    if (!root) return;
+    if (!root) return miss();
     for (const Attribute& each : root->attributes)
       complaints_.error(each.name_at, "the <scene> of an included file has no attributes: '" + each.name +
                                           "' belongs into the deck itself");
@@ -110,7 +106,7 @@ class DeckReader {
   }
 
   bool may_include(const std::string& path, const Location& at) {
-    const std::string canonical = std::filesystem::weakly_canonical(path).string();
+    const std::string canonical = canonical_path(path);
     std::string chain;
     for (const File& each : chain_) {
       if (!chain.empty() || each.canonical == canonical) chain += each.path + " -> ";
@@ -126,8 +122,11 @@ class DeckReader {
     return false;
   }
 
+  void miss() { is_whole_ = false; }
+
   Deck& deck_;
   Complaints& complaints_;
+  bool is_whole_ = true;
   std::vector<File> chain_;  // from the deck to the file that is being read
 };
 
@@ -166,9 +165,11 @@ std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Overr
                                 Complaints& complaints) {
   auto deck = std::make_unique<Deck>();
   deck->path = path;
-  deck->root = DeckReader(*deck, complaints).read(path, {});
+  DeckReader reader(*deck, complaints);
+  deck->root = reader.read(path, {});
   if (!deck->root) return nullptr;
   apply(overrides, *deck, complaints);
+  if (!reader.is_whole()) return nullptr;
   deck->sha256 = hash_of(*deck, overrides);
   return deck;
 }

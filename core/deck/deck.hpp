@@ -49,7 +49,7 @@ struct Deck {
 };
 
 /// Reads a deck and what it includes. Complains about everything that can be said without knowing any plugin;
-/// null only if no tree could be made at all (and then there is an error).
+/// null, with an error, if no tree could be made at all or if a parameter or an include is missing from it.
 std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Override>& overrides,
                                 Complaints& complaints);
 

@@ -56,6 +56,13 @@ std::optional<Expression> Expression::compile(const Attribute& attribute, const 
   return compile(attribute.value, attribute.value_at, scope, variables, complaints);
 }
 
+bool Expression::has_dimension(const Dimension& wanted) const {
+  if (is_condition_) return false;
+  const Step& last = steps_.back();
+  const bool is_zero = dimension_.is_plain() && static_cast<Operation>(last.operation) == Operation::constant && last.value == 0;
+  return is_zero || dimension_ == wanted;
+}
+
 bool Expression::uses(std::size_t variable) const {
   for (const Step& step : steps_)
     if (step.operation == static_cast<int>(Operation::variable) && step.a == static_cast<int>(variable))

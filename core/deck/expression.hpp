@@ -3,7 +3,7 @@
 //
 // Numbers    may carry a unit: 13.5 mm, 0.5 N/mm. It holds no blanks and binds tighter than any operator.
 // Operators  from loose to tight: or ||, and &&, not, == != < <= > >=, + -, * /, sign, ^ (2^3^2 is 2^9).
-//            Both sides of + - and of a comparison need one dimension, also where one of them is 0.
+//            Both sides of + - and of a comparison need one dimension; a 0 without a unit has any.
 // Functions  sqrt abs min max follow the dimension; sign atan2 forget it; plain numbers for sin cos tan
 //            asin acos atan exp log (natural, = ln) log10 floor ceil round; if(condition, then, otherwise).
 // Names      parameters, variables, pi. ${ } is a pair of brackets. Names may hold . and -: a - without
@@ -43,6 +43,8 @@ class Expression {
 
   const Dimension& dimension() const { return dimension_; }
   bool is_condition() const { return is_condition_; }  ///< a comparison, not a number
+  /// Is it a number of this dimension? A 0 without a unit has any.
+  bool has_dimension(const Dimension& wanted) const;
   bool uses(std::size_t variable) const;               ///< does its value depend on this one
 
   /// In SI; a condition gives 1 or 0. `si_values` are in the order of the variables. The result may be NaN or

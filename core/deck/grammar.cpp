@@ -35,7 +35,7 @@ double record_choice(double test, double yes, double no) {
 double record_arc_tangent(double a, double b) {
   return recording->arc_tangent(static_cast<int>(a), static_cast<int>(b));
 }
-double same(double a) { return a; }
+double record_plus(double a) { return recording->positive(static_cast<int>(a)); }
 
 void define_operators(mu::Parser& parser) {
   using enum Operation;
@@ -61,7 +61,7 @@ void define_operators(mu::Parser& parser) {
   constexpr int below_comparison = (mu::prLAND + mu::prCMP) / 2;
   parser.DefineInfixOprt("!", record_unary<opposite>, below_comparison, false);
   parser.DefineInfixOprt("-", record_unary<negate>, mu::prINFIX, false);
-  parser.DefineInfixOprt("+", same, mu::prINFIX, false);
+  parser.DefineInfixOprt("+", record_plus, mu::prINFIX, false);
 }
 
 void define_functions(mu::Parser& parser) {
@@ -118,27 +118,86 @@ std::string in_plain_words(const mu::ParserError& error) {
   }
 }
 
-/// The tokens as muParser shall read them: leaves become constants v0 v1 ... that hold handles. `origin`
-/// tells for each character which token it came from.
-std::string translated(const std::vector<Token>& tokens, std::vector<std::size_t>& origin) {
-  std::string text;
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const bool is_leaf = tokens[i].kind != Token::Kind::sign && tokens[i].kind != Token::Kind::function;
-    text += is_leaf ? "v" + std::to_string(i) : tokens[i].text;
-    if (tokens[i].kind != Token::Kind::function)
-      text += ' ';  // muParser wants the bracket right behind the name
-    origin.resize(text.size(), i);
+/// The tokens as muParser shall read them: leaves become constants v0 v1 ... that hold handles. `origin` tells for each
+/// character which token it came from. muParser takes one sign before an operand: of several + and - one is left, and what
+/// stands behind a `not` gets brackets.
+class Translation {
+ public:
+  explicit Translation(const std::vector<Token>& tokens) : tokens_(tokens) {}
+
+  std::string run() {
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      if (const std::size_t next = behind_signs(i); next > i + 1) {
+        emit(negates(i, next) ? "-" : "+", i);
+        i = next - 1;
+      } else {
+        token(i);
+      }
+    }
+    close_nots(tokens_.size() - 1);
+    return std::move(text_);
   }
-  return text;
-}
+
+  std::vector<std::size_t> origin;
+
+ private:
+  bool is_sign(std::size_t i, std::string_view text) const { return i < tokens_.size() && tokens_[i].kind == Token::Kind::sign && tokens_[i].text == text; }
+  bool is_plus_or_minus(std::size_t i) const { return is_sign(i, "+") || is_sign(i, "-"); }
+  bool begins_operand(std::size_t i) const { return i == 0 || (tokens_[i - 1].kind == Token::Kind::sign && tokens_[i - 1].text != ")"); }
+
+  /// The first token behind the run of + and - before an operand that begins at i; i if there is none.
+  std::size_t behind_signs(std::size_t i) const {
+    if (!begins_operand(i)) return i;
+    while (is_plus_or_minus(i)) ++i;
+    return i;
+  }
+
+  bool negates(std::size_t begin, std::size_t end) const {
+    bool negative = false;
+    for (std::size_t i = begin; i < end; ++i) negative ^= tokens_[i].text == "-";
+    return negative;
+  }
+
+  void emit(const std::string& text, std::size_t from) {
+    text_ += text + ' ';
+    origin.resize(text_.size(), from);
+  }
+
+  void token(std::size_t i) {
+    const Token& token = tokens_[i];
+    const bool ends = is_sign(i, "&&") || is_sign(i, "||") || is_sign(i, ",") || is_sign(i, ")");
+    if (ends) close_nots(i);
+    if (is_sign(i, "(")) ++depth_;
+    if (is_sign(i, ")")) --depth_;
+    if (token.kind == Token::Kind::function) {
+      text_ += token.text;  // muParser wants the bracket right behind the name
+      origin.resize(text_.size(), i);
+    } else {
+      emit(token.kind == Token::Kind::sign ? token.text : "v" + std::to_string(i), i);
+    }
+    if (!is_sign(i, "!") || !(is_sign(i + 1, "!") || is_plus_or_minus(i + 1)) || i + 2 == tokens_.size()) return;
+    emit("(", i);
+    nots_.push_back(depth_);
+  }
+
+  void close_nots(std::size_t from) {
+    for (; !nots_.empty() && nots_.back() == depth_; nots_.pop_back()) emit(")", from);
+  }
+
+  const std::vector<Token>& tokens_;
+  std::string text_;
+  int depth_ = 0;
+  std::vector<int> nots_;  // at which depth each bracket behind a `not` was opened
+};
 
 }  // namespace
 
 int record(const std::vector<Token>& tokens, const std::vector<int>& handles, std::size_t text_length,
            StepRecorder& recorder) {
   recording = &recorder;
-  std::vector<std::size_t> origin;
-  const std::string text = translated(tokens, origin);
+  Translation translation(tokens);
+  const std::string text = translation.run();
+  const std::vector<std::size_t>& origin = translation.origin;
   try {
     mu::Parser parser;
     define_operators(parser);

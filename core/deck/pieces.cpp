@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
 #include "core/deck/deck.hpp"
 #include "core/deck/expression.hpp"
 
@@ -11,8 +12,7 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
-constexpr std::size_t most_values = 10000;
+constexpr std::size_t longest_text = 1'000'000, most_values = 10'000;
 
 /// The bracket that closes the "${" at the beginning of text; npos if none does.
 std::size_t closing(std::string_view text) {
@@ -28,6 +28,10 @@ std::size_t closing(std::string_view text) {
 
 std::optional<std::vector<Piece>> pieces_of(std::string_view text, ValueMistake& mistake) {
   std::vector<Piece> pieces;
+  if (text.size() > longest_text) {
+    mistake = {0, "a value of more than " + std::to_string(longest_text) + " characters: data belong into a file"};
+    return {};
+  }
   for (std::size_t at = 0; (at = text.find_first_not_of(blanks, at)) != std::string_view::npos;) {
     const std::string_view rest = text.substr(at);
     if (rest.starts_with("${")) {
@@ -39,7 +43,7 @@ std::optional<std::vector<Piece>> pieces_of(std::string_view text, ValueMistake&
       pieces.push_back({rest.substr(2, end - 2), at + 2, true});
       at += end + 1;
     } else {
-      const std::string_view word = rest.substr(0, std::min(rest.find_first_of(blanks), rest.find("${")));
+      const std::string_view run = rest.substr(0, rest.find_first_of(blanks)), word = run.substr(0, run.find("${"));
       pieces.push_back({word, at, false});
       at += word.size();
     }
@@ -121,6 +125,7 @@ class PieceReader {
   bool unit(std::string_view text, std::size_t at) {
     if (std::string_view("+-*/^()").find(text.front()) != std::string_view::npos)
       return fail(at, "arithmetic stands inside ${ }");
+    if (const auto odd = first_lookalike(text)) return fail(at + *odd, named_character(text.substr(*odd)) + " means nothing here");
     const auto found = find_unit(text);
     if (!found) return fail(at, values.empty() ? "" : why_no_unit(text));
     if (values.empty()) return fail(at, "a number is missing before the unit");

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
+
 namespace beadwork {
 
 namespace {
@@ -9,7 +12,6 @@ namespace {
 constexpr std::size_t deepest = 90;                                // TinyXML2 gives up at 100
 constexpr std::size_t most_tags = 100000, most_attributes = 1000;  // a scene has some hundreds
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v'; }
 bool starts_name(char c) {
   return static_cast<unsigned char>(c) >= 128 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
          c == '_' || c == ':';
@@ -47,9 +49,9 @@ class Counter {
 class Scanner {
  public:
   Scanner(const std::shared_ptr<const Source>& source, Complaints& complaints)
-      : text_(source->text), counter_(source), complaints_(complaints) {}
+      : plain_(with_plain_blanks(source->text)), text_(plain_), counter_(source), complaints_(complaints) {}
 
-  std::vector<TagPlace> run() {
+  Markup run() {
     while (!failed_ && at_ < text_.size()) {
       if (is_blank(here()))
         ++at_;
@@ -60,7 +62,7 @@ class Scanner {
     }
     if (!failed_ && !open_.empty()) fail(open_.back().offset, "<" + open_.back().name + "> is not closed");
     if (!failed_ && tags_.empty()) fail(0, "there is no tag in this file; a deck begins with <scene>");
-    return std::move(tags_);
+    return {std::move(tags_), std::move(plain_)};
   }
 
  private:
@@ -82,15 +84,25 @@ class Scanner {
     failed_ = true;
   }
 
+  /// Where something invisible stands between `begin` and here, that is what is wrong.
+  bool is_visible(std::size_t begin) {
+    const auto invisible = first_invisible(text_.substr(begin, at_ - begin));
+    if (invisible) fail(begin + invisible->at, invisible->words + ", stands here: delete it");
+    return !invisible;
+  }
+
   std::string name() {
     const std::size_t begin = at_;
     if (starts_name(here()))
       while (at_ < text_.size() && inside_name(here())) ++at_;
+    is_visible(begin);
     return std::string(text_.substr(begin, at_ - begin));
   }
 
   void stray_text() {
     const char* const message = "text between tags means nothing here; values are attributes: name=\"value\"";
+    const auto invisible = first_invisible(text_.substr(at_, std::max<std::size_t>(1, character_length(text_.substr(at_)))));
+    if (invisible) return fail(at_, invisible->words + ", stands here: delete it");
     if (open_.empty() && tags_.empty())
       return fail(at_, "this is no XML: it begins with text, not with a tag");
     complaints_.error(counter_.at(at_), message);
@@ -98,15 +110,12 @@ class Scanner {
   }
 
   void markup() {
-    is_at_top_ = is_at_top_ && next_is("<?");
     if (next_is("<!--"))
       skip_past("<!--", "-->", "this comment is not closed by -->");
     else if (next_is("<![CDATA["))
       stray_data();
-    else if (next_is("<?") && !is_at_top_)
-      fail(at_, "<? ?> may stand only at the top of the file");
     else if (next_is("<?"))
-      skip_past("<?", "?>", "this is not closed by ?>");
+      instruction();
     else if (next_is("<!"))
       fail(at_, "document types and entities of your own are not supported; use <parameter> and <include>");
     else if (next_is("</"))
@@ -121,6 +130,15 @@ class Scanner {
     at_ = found + end.size();
   }
 
+  /// <?xml ... ?>, <?xml-stylesheet ... ?>: for other programs. TinyXML2 takes them only at the top.
+  void instruction() {
+    const std::size_t begin = at_;
+    skip_past("<?", "?>", "this is not closed by ?>");
+    if (failed_) return;
+    const auto first = plain_.begin() + static_cast<std::ptrdiff_t>(begin), last = plain_.begin() + static_cast<std::ptrdiff_t>(at_);
+    std::replace_if(first, last, [](char c) { return !is_blank(c); }, ' ');
+  }
+
   void stray_data() {
     complaints_.error(counter_.at(at_), "CDATA means nothing here; values are attributes: name=\"value\"");
     skip_past("<![CDATA[", "]]>", "this CDATA is not closed by ]]>");
@@ -130,6 +148,7 @@ class Scanner {
     const std::size_t begin = at_;
     at_ += 2;
     const std::string closed = name();
+    if (failed_) return;
     skip_blanks();
     if (closed.empty() || here() != '>') return fail(begin, "a closing tag looks like </fill>");
     ++at_;
@@ -143,6 +162,7 @@ class Scanner {
   void opening_tag() {
     const std::size_t begin = ++at_;
     const std::string tag = name();
+    if (failed_) return;
     if (tag.empty())
       return fail(begin - 1, "a tag needs a name right behind its <; a 'less than' inside a value is fine");
     if (open_.empty() && !tags_.empty())
@@ -172,6 +192,7 @@ class Scanner {
       if (here() == '>' || next_is("/>")) return;
       const std::size_t begin = at_;
       const std::string attribute = name();
+      if (failed_) return;
       skip_blanks();
       const bool has_equals = here() == '=';
       if (has_equals) ++at_;
@@ -182,7 +203,7 @@ class Scanner {
       if (begin == text_.size()) return fail(tags_.back().name.offset, "this tag is not closed");
       if (attribute.empty()) return fail(begin, "an attribute such as name=\"value\" is wanted here");
       if (!has_equals || !has_quote)
-        return fail(begin, "'" + attribute + "' needs a value in quotes: " + attribute + "=\"...\"");
+        return fail(begin, "'" + attribute + "' needs a value in quotes: " + attribute + "=\"...\"" + wrong_quote());
       if (std::find(seen.begin(), seen.end(), attribute) != seen.end())
         return fail(begin, "'" + attribute + "' is given twice");
       if (seen.size() == most_attributes)
@@ -190,6 +211,12 @@ class Scanner {
       seen.push_back(attribute);
       quote = value(begin);
     }
+  }
+
+  /// Where a quote stands that only looks like one, what it is.
+  std::string wrong_quote() const {
+    const std::size_t length = character_length(text_.substr(at_));
+    return first_lookalike(text_.substr(at_, length)) ? "; here stands " + named_character(text_.substr(at_)) : "";
   }
 
   /// Returns where the value began, if it has several lines.
@@ -210,18 +237,19 @@ class Scanner {
     return inside.find('\n') == std::string_view::npos ? std::string_view::npos : quote;
   }
 
+  std::string plain_;
   std::string_view text_;
   Counter counter_;
   Complaints& complaints_;
   std::size_t at_ = 0;
-  bool failed_ = false, is_at_top_ = true;
+  bool failed_ = false;
   std::vector<TagPlace> tags_;
   std::vector<Open> open_;
 };
 
 }  // namespace
 
-std::vector<TagPlace> places_of(const std::shared_ptr<const Source>& source, Complaints& complaints) {
+Markup markup_of(const std::shared_ptr<const Source>& source, Complaints& complaints) {
   return Scanner(source, complaints).run();
 }
 

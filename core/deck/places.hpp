@@ -3,6 +3,7 @@
 // this short pass over the same text supplies them, and points at what is not well-formed.
 
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,8 +20,13 @@ struct TagPlace {
   std::vector<AttributePlace> attributes;
 };
 
-/// The opening tags of the text, in document order. Stops at the first thing that is no XML, with an error.
-std::vector<TagPlace> places_of(const std::shared_ptr<const Source>& source, Complaints& complaints);
+struct Markup {
+  std::vector<TagPlace> tags;  ///< the opening tags, in document order
+  std::string text;            ///< for TinyXML2, byte for byte as long: without <? ?>, and every blank beyond ASCII is spaces
+};
+
+/// Stops at the first thing that is no XML, with an error.
+Markup markup_of(const std::shared_ptr<const Source>& source, Complaints& complaints);
 
 /// The length of the entity that text begins with ("&lt;": 4), 0 if it is none that XML defines; `decoded`
 /// gets its length in UTF-8.

@@ -11,6 +11,8 @@ namespace beadwork {
 
 namespace {
 
+constexpr std::size_t most_words = 10'000;
+
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 bool is_angle(std::string_view unit) { return unit == "rad" || unit == "deg" || unit == "degree"; }
@@ -59,13 +61,10 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, std::
   const auto values = evaluate_pieces(attribute.value, attribute.value_at, scope, complaints, mistake);
   if (mistake) return refuse(mistake->reason.empty() ? "" : ": " + mistake->reason, mistake->at);
   if (!values) return {};
-  const auto has_unit = [wanted = dimension_of(unit)](const Value& v) { return v.quantity.dimension == wanted; };
-  const bool any_has_unit = std::any_of(values->begin(), values->end(), has_unit);
   std::vector<double> result;
   for (const Value& each : *values) {
-    const bool is_zero = each.is_bare && each.is_literal && each.quantity.value == 0;
-    const bool borrows = is_zero && any_has_unit;  // "0 0 ${height}": a zero takes the unit of the others
-    const auto why = borrows ? std::nullopt : objection(each, unit, values->size() > 1);
+    const bool is_zero = each.quantity.value == 0 && each.quantity.dimension.is_plain();  // has any unit
+    const auto why = is_zero ? std::nullopt : objection(each, unit, values->size() > 1);
     if (why) return refuse(*why);
     if (!std::isfinite(each.quantity.value)) return refuse(": it is out of range");
     result.push_back(each.quantity.value);
@@ -145,7 +144,10 @@ std::optional<std::vector<std::string>> read_words(const Attribute& attribute, c
                                                    Complaints& complaints) {
   const auto text = read_text(attribute, scope, complaints);
   if (!text) return {};
-  return split_words(*text);
+  std::vector<std::string> words = split_words(*text);
+  if (words.size() <= most_words) return words;
+  complaints.error(attribute.value_at, "'" + attribute.name + "' holds more than " + std::to_string(most_words) + " words: data belong into a file");
+  return {};
 }
 
 std::optional<std::string> read_choice(const Attribute& attribute, const std::vector<std::string>& allowed,

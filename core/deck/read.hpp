@@ -4,7 +4,7 @@
 // ("J/m2", "1"): only its dimension and its name in messages matter, results are always in SI.
 //
 // A value is a number with its unit, "13.5 mm", or ${expression}; "${2*n} mm" gives a plain result its unit.
-// In a list a unit holds for the number before it and for all bare numbers before that: "14 14 28 um".
+// In a list a unit holds for the number before it and for all bare numbers before that: "14 14 28 um". A 0 needs none.
 
 #include <cstdint>
 #include <optional>

@@ -16,6 +16,8 @@ struct Operand {
   bool is_condition = false, is_constant = false;
   double value = 0;                // of a constant
   std::size_t begin = 0, end = 0;  // the characters it came from
+
+  bool is_zero() const { return is_constant && !is_condition && value == 0 && dimension.is_plain(); }
 };
 
 inline std::string kind_of(const Operand& operand) {
@@ -94,6 +96,12 @@ class StepRecorder {
     return push(operation, result, a);
   }
 
+  /// A sign that changes nothing.
+  int positive(int a) {
+    number(operands_[a]);
+    return a;
+  }
+
   int choose(int test, int yes, int no) {
     condition(operands_[test]);
     Operand result = joined({}, test, no);
@@ -147,9 +155,11 @@ class StepRecorder {
                               "a condition such as x < 1 mm is wanted here, this is " + kind_of(operand));
   }
 
+  /// A zero without a unit has any dimension.
   Dimension common(const Operand& left, const Operand& right) const {
     number(left), number(right);
-    if (left.dimension == right.dimension) return left.dimension;
+    if (left.dimension == right.dimension || right.is_zero()) return left.dimension;
+    if (left.is_zero()) return right.dimension;
     const Token& sign = sign_between(left, right);
     const std::string who = sign.text == "," ? "the arguments" : "the two sides of '" + sign.text + "'";
     throw ExpressionMistake(

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
 #include "core/deck/deck.hpp"
 #include "core/deck/pieces.hpp"
 #include "core/deck/read.hpp"
@@ -21,7 +22,7 @@ void Scope::add(Parameter parameter, Complaints& complaints) {
                                        first->parameter.at.where());
   } else {
     index_.emplace(parameter.name, entries_.size());
-    entries_.push_back({std::move(parameter), false, {}});
+    entries_.push_back({std::move(parameter), false, {}, {}});
   }
 }
 
@@ -33,9 +34,12 @@ void Scope::set(std::string_view name, std::string_view text, Complaints& compla
     return complaints.error({source, 1, 1, 0}, "the deck has no parameter '" + std::string(name) + "'" +
                                                    did_you_mean(name, names()));
   Entry& entry = entries_[found->second];
-  entry.parameter.text = text;
+  entry.parameter.text = with_plain_blanks(text);
   entry.parameter.text_at = {source, 1, static_cast<int>(name.size()) + 2, name.size() + 1};
   entry.values.reset();
+  entry.text.reset();
+  if (const auto invisible = first_invisible(text))
+    complaints.error(locate(entry.parameter.text_at, invisible->at), invisible->words + ", stands here: leave it out");
 }
 
 const Scope::Entry* Scope::find(std::string_view name) const {
@@ -108,16 +112,59 @@ std::optional<Quantity> Scope::quantity(std::string_view name, const Location& a
 
 std::optional<std::string> Scope::text(std::string_view name, const Location& asked_at,
                                        Complaints& complaints) const {
+  const Entry* known = find(name);
+  if (known && known->text) {
+    known->used = true;
+    return *known->text;
+  }
   const Entry* entry = start(name, asked_at, complaints);
   if (!entry) return {};
-  auto result = text_of(entry->parameter.text, entry->parameter.text_at, *this, complaints);
+  entry->text = text_of(entry->parameter.text, entry->parameter.text_at, *this, complaints);
   running_.pop_back();
-  return result;
+  return *entry->text;
 }
 
-void Scope::complain_about_unused(Complaints& complaints) const {
+namespace {
+
+bool stands_in_names(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-'; }
+
+/// What may be a name in this text: each run of letters, and where it holds a -, each part from one - to another, as it
+/// may stand for a difference.
+void add_names(std::string_view text, std::set<std::string, std::less<>>& names) {
+  constexpr std::size_t most_parts = 12;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = at;
+    while (end < text.size() && stands_in_names(text[end])) ++end;
+    const std::vector<std::string> parts = split(text.substr(at, end - at), '-');
+    for (std::size_t first = 0; first < parts.size(); ++first) {
+      std::string name;
+      for (std::size_t k = first; k < std::min(parts.size(), first + most_parts); ++k) {
+        name += (k > first ? "-" : "") + parts[k];
+        names.insert(name);
+      }
+    }
+    at = end + 1;
+  }
+}
+
+void add_names(const Node& node, std::set<std::string, std::less<>>& names) {
+  for (const Attribute& each : node.attributes) add_names(each.value, names);
+  for (const auto& child : node.children) add_names(*child, names);
+}
+
+}  // namespace
+
+std::set<std::string, std::less<>> Scope::mentioned_names(const Node& root) const {
+  std::set<std::string, std::less<>> names;
+  add_names(root, names);
+  for (const Entry& each : entries_) add_names(each.parameter.text, names);
+  return names;
+}
+
+void Scope::complain_about_unused(const Node& root, Complaints& complaints) const {
+  const auto mentioned = complaints.errors() > 0 ? mentioned_names(root) : std::set<std::string, std::less<>>();
   for (const Entry& each : entries_)
-    if (!each.used && !each.parameter.from_library)
+    if (!each.used && !each.parameter.from_library && !mentioned.contains(each.parameter.name))
       complaints.error(each.parameter.at, "parameter '" + each.parameter.name + "' is used nowhere");
 }
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "core/base/units.hpp"
 
 namespace beadwork {
+
+struct Node;
 
 struct Parameter {
   std::string name, text;     ///< text: as in the deck, "${}" and all
@@ -31,7 +34,7 @@ class Scope {
   /// A second parameter of one name is an error at the second, naming the place of the first.
   void add(Parameter parameter, Complaints& complaints);
 
-  /// `--set`: gives a parameter another value. Unknown: an error with a suggestion.
+  /// `--set`: gives a parameter another value. Unknown: an error with a suggestion; no text in UTF-8: an error.
   void set(std::string_view name, std::string_view text, Complaints& complaints);
 
   bool has(std::string_view name) const { return find(name) != nullptr; }
@@ -46,18 +49,20 @@ class Scope {
   std::optional<std::string> text(std::string_view name, const Location& asked_at,
                                   Complaints& complaints) const;  ///< every ${} replaced
 
-  /// One error for each parameter of the deck file itself that nothing has used. Call it when everything is
-  /// read.
-  void complain_about_unused(Complaints& complaints) const;
+  /// One error for each parameter of the deck file itself that nothing has used. Call it when everything is read. Where
+  /// there are errors already, one that is named somewhere below `root` or in a parameter may only not have been reached.
+  void complain_about_unused(const Node& root, Complaints& complaints) const;
 
  private:
   struct Entry {
     Parameter parameter;
     mutable bool used = false;
     mutable std::optional<std::optional<std::vector<Value>>> values;  ///< once worked out
+    mutable std::optional<std::optional<std::string>> text;           ///< likewise, every ${} replaced
   };
 
   const Entry* find(std::string_view name) const;
+  std::set<std::string, std::less<>> mentioned_names(const Node& root) const;
   const Entry* start(std::string_view name, const Location& asked_at, Complaints& complaints) const;
 
   std::vector<Entry> entries_;                             // in the order of the deck

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
 #include "core/deck/operations.hpp"
 #include "core/deck/scope.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool starts_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool inside_name(char c) { return starts_name(c) || is_digit(c) || c == '.' || c == '-'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 /// The word that stands for a sign, or "".
 std::string_view sign_of_word(std::string_view word) {
@@ -109,7 +109,8 @@ class Lexer {
   /// What stands here up to a blank, bracket or comma: the way a unit is spelt.
   std::string_view word_here() const {
     if (!(starts_name(here()) || here() == '%' || static_cast<unsigned char>(here()) >= 0x80)) return {};
-    return rest().substr(0, rest().find_first_of(" \t\r\n(){},<>=!&|+"));
+    const auto ends = [](char c) { return is_blank(c) || std::string_view("(){},<>=!&|+").find(c) != std::string_view::npos; };
+    return rest().substr(0, static_cast<std::size_t>(std::find_if(rest().begin(), rest().end(), ends) - rest().begin()));
   }
 
   [[noreturn]] void refuse_unit(std::size_t number_begin, std::size_t number_end,
@@ -231,9 +232,7 @@ class Lexer {
     if (c == '?')
       throw ExpressionMistake(at_, "'?' means nothing here; write if(condition, then, otherwise)");
     if (c == '!') throw ExpressionMistake(at_, "'!' means nothing here; write not");
-    std::size_t length = 1;  // a whole character of UTF-8
-    while ((static_cast<unsigned char>(peek(length)) & 0xC0) == 0x80) ++length;
-    throw ExpressionMistake(at_, quoted(rest().substr(0, length)) + " means nothing in an expression");
+    throw ExpressionMistake(at_, named_character(rest()) + " means nothing in an expression");
   }
 
   std::string_view text_;

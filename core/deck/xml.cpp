@@ -8,6 +8,7 @@
 
 #include "core/base/readable.hpp"
 #include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
 #include "core/deck/places.hpp"
 
 namespace beadwork {
@@ -32,11 +33,8 @@ std::string why_no_deck(const std::string& path) {
 /// The offset of the first byte that is no UTF-8 or no text (a zero byte); npos if there is none.
 std::size_t first_bad_byte(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const std::size_t length = c < 0x80 ? 1 : c < 0xC2 ? 0 : c < 0xE0 ? 2 : c < 0xF0 ? 3 : c < 0xF5 ? 4 : 0;
-    if (length == 0 || c == 0 || i + length > text.size()) return i;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return i;
+    const std::size_t length = character_length(text.substr(i));
+    if (length == 0 || text[i] == '\0') return i;
     i += length;
   }
   return std::string_view::npos;
@@ -76,11 +74,16 @@ std::shared_ptr<const Source> read_source(const std::string& path, const Locatio
 
 namespace {
 
+/// What editors and other tools add to any tag, such as xsi:noNamespaceSchemaLocation; it says nothing about the scene.
+bool is_for_tools(std::string_view name) {
+  return name == "xmlns" || name.starts_with("xmlns:") || name.starts_with("xsi:") || name.starts_with("xml:");
+}
+
 /// Pairs the elements of TinyXML2, in document order, with the places of the tags.
 class TreeBuilder {
  public:
-  TreeBuilder(const std::shared_ptr<const Source>& source, const std::vector<TagPlace>& places)
-      : source_(source), places_(places) {}
+  TreeBuilder(const std::shared_ptr<const Source>& source, const std::vector<TagPlace>& places, Complaints& complaints)
+      : source_(source), places_(places), complaints_(complaints) {}
 
   std::unique_ptr<Node> build(const tinyxml2::XMLElement& element) {
     auto node = std::make_unique<Node>();
@@ -91,7 +94,7 @@ class TreeBuilder {
     std::size_t count = 0;
     for (const auto* each = element.FirstAttribute(); each; each = each->Next(), ++count) {
       const AttributePlace at = count < place.attributes.size() ? place.attributes[count] : AttributePlace{};
-      node->attributes.push_back({each->Name(), each->Value(), at.name, at.value});
+      if (!is_for_tools(each->Name())) add({each->Name(), with_plain_blanks(each->Value()), at.name, at.value}, *node);
     }
     in_step_ = in_step_ && count == place.attributes.size() &&
                source_->text.compare(place.name.offset, node->tag.size(), node->tag) == 0;
@@ -105,8 +108,15 @@ class TreeBuilder {
   bool in_step() const { return in_step_ && next_ == places_.size(); }
 
  private:
+  void add(Attribute attribute, Node& node) {
+    if (const auto invisible = first_invisible(attribute.value))
+      complaints_.error(attribute.place(invisible->at), invisible->words + ", stands here in '" + attribute.name + "': delete it");
+    node.attributes.push_back(std::move(attribute));
+  }
+
   const std::shared_ptr<const Source>& source_;
   const std::vector<TagPlace>& places_;
+  Complaints& complaints_;
   std::size_t next_ = 0;
   bool in_step_ = true;
 };
@@ -115,17 +125,18 @@ class TreeBuilder {
 
 std::unique_ptr<Node> parse_xml(const std::shared_ptr<const Source>& source, Complaints& complaints) {
   const int errors_before = complaints.errors();
-  const std::vector<TagPlace> places = places_of(source, complaints);
+  const Markup markup = markup_of(source, complaints);
   tinyxml2::XMLDocument document;
   if (complaints.errors() > errors_before) return nullptr;
-  if (document.Parse(source->text.data(), source->text.size()) != tinyxml2::XML_SUCCESS ||
+  if (document.Parse(markup.text.data(), markup.text.size()) != tinyxml2::XML_SUCCESS ||
       !document.RootElement()) {
     complaints.error({source, document.ErrorLineNum(), 1},
                      std::string("this is not well-formed XML (") + document.ErrorName() + ")");
     return nullptr;
   }
-  TreeBuilder builder(source, places);
+  TreeBuilder builder(source, markup.tags, complaints);
   auto root = builder.build(*document.RootElement());
+  if (complaints.errors() > errors_before) return nullptr;
   if (builder.in_step()) return root;
   complaints.error({source, 1, 1}, "the tags of this file cannot be told apart; write its XML more plainly");
   return nullptr;

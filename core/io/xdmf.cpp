@@ -5,26 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/base/text.hpp"
+
 namespace beadwork {
 
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 const XdmfArray& array(const XdmfGrid& grid, std::string_view name) {
   const auto found = std::find_if(grid.arrays.begin(), grid.arrays.end(), [&](const auto& a) { return a.name == name; });
@@ -36,7 +21,7 @@ std::string data_item(const XdmfGrid& grid, const XdmfArray& array, std::string_
   const std::string extent = array.width > 1 ? fmt::format("{} {}", array.rows, array.width) : fmt::format("{}", array.rows);
   const char* type = !array.integer ? "Float" : array.bytes == 1 ? "UChar" : "Int";
   return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}/{}</DataItem>", extent,
-                     type, array.bytes, file, escaped(grid.group), escaped(array.name));
+                     type, array.bytes, file, xml_escaped(grid.group), xml_escaped(array.name));
 }
 
 const char* attribute_type(std::size_t width) { return width == 1 ? "Scalar" : width == 3 ? "Vector" : "Matrix"; }
@@ -45,7 +30,7 @@ std::string attributes(const XdmfGrid& grid, std::string_view skip, const char* 
   std::string out;
   for (const XdmfArray& a : grid.arrays)
     if (a.name != skip)
-      out += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", escaped(a.name),
+      out += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_escaped(a.name),
                          attribute_type(a.width), center, data_item(grid, a, file));
   return out;
 }
@@ -56,7 +41,7 @@ std::string geometry(const XdmfGrid& elements, std::string_view file) {
 }
 
 std::string uniform(Real time, const std::string& name, const std::string& content) {
-  return fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n{}   </Grid>\n", escaped(name), time,
+  return fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n{}   </Grid>\n", xml_escaped(name), time,
                      content);
 }
 
@@ -94,7 +79,7 @@ std::string xdmf_document(const std::vector<const XdmfPart*>& parts) {
     if (std::find(grids.begin(), grids.end(), part->grid) == grids.end()) grids.push_back(part->grid);
   std::string out = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"2.0\">\n <Domain>\n";
   for (const std::string& grid : grids) {
-    out += fmt::format("  <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", escaped(grid));
+    out += fmt::format("  <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", xml_escaped(grid));
     for (const XdmfPart* part : parts)
       if (part->grid == grid) out += part->text;
     out += "  </Grid>\n";

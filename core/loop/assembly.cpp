@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/readable.hpp"
 #include "core/base/text.hpp"
 #include "core/deck/read.hpp"
 #include "core/plugin/stamp.hpp"
@@ -62,7 +63,7 @@ const BondLaw* Scene::law_of(const std::string& family) const {
 }
 
 std::string Scene::path_of(const std::string& path) const {
-  return (std::filesystem::path(deck_path).parent_path() / path).lexically_normal().string();
+  return path_beside(deck_path, path);
 }
 
 void Assembly::run() {
@@ -76,14 +77,14 @@ void Assembly::run() {
   check_names();
   for (Stage& stage : scene_.stages) check_stage(stage);
   for (const auto& [watcher, pulled] : waits_for_pull_)
-    if (!pulled) complaints_.error(watcher->moments.at(), "'at' waits for a displacement, but nothing in <load> is pulled");
-  if (std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
+    if (!pulled && is_read(Kind::load)) complaints_.error(watcher->moments.at(), "'at' waits for a displacement, but nothing in <load> is pulled");
+  if (is_read(Kind::fill) && std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
   if (complaints_.errors() == 0) {  // else a law or a load may be missing that is only misspelt
     for (const Stage& stage : scene_.stages) stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_);
     check_watchers();
   }
-  deck_.scope.complain_about_unused(complaints_);
+  deck_.scope.complain_about_unused(*deck_.root, complaints_);
   if (complaints_.errors() == 0) lay_out_fields();
 }
 
@@ -128,6 +129,7 @@ void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain,
         if (attribute.name == "name") {
           if (const auto text = read_text(attribute, deck_.scope, complaints_)) made.name = *text;
         } else if (attribute.name != "until") {
+          unread_kinds_.insert(Kind::move);
           complaints_.error(attribute.name_at, fmt::format("<stage> has no attribute '{}'{}", attribute.name,
                                                            did_you_mean(attribute.name, {"name", "until"})));
         }
@@ -140,6 +142,8 @@ void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain,
       read_sections(*child, made, node, true);
     } else {
       const auto known = section_names(inside_stage);
+      note_unread(*child);
+      unread_kinds_.insert(std::begin(all_kinds), std::end(all_kinds));
       complaints_.error(child->at, fmt::format("no section <{}> in <{}>{}", child->tag, parent.tag,
                                                did_you_mean(child->tag, known, "<", ">")));
     }
@@ -151,11 +155,20 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage, PlainN
     std::unique_ptr<Plugin> plugin = catalogue_.make(kind, node->tag);
     if (!plugin) {
       complain_of_tag(kind, *node);
+      note_unread(*node);
+      unread_kinds_.insert(kind);
       continue;
     }
     const std::string base = fmt::format("{}.{}", kind_name(kind), node->tag);
     const int number = ++counts_[base];
     plugin->configure(*node, number == 1 ? base : fmt::format("{}.{}", base, number), deck_.scope, complaints_);
+    for (const Attribute& attribute : node->attributes)
+      if (!plugin->param(attribute.name)) {
+        note_unread(*node);
+        unread_kinds_.insert(kind);
+      }
+    for (const ParamBase* p : plugin->params())
+      if (p->in_deck() && !p->given()) unread_kinds_.insert(kind);
     plain.children.push_back(resolved(*plugin));
     enlist(*plugin, kind, stage);
     scene_.plugins.push_back(std::move(plugin));
@@ -164,6 +177,7 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage, PlainN
 
 void Assembly::complain_of_tag(Kind kind, const Node& node) {
   const auto elsewhere = catalogue_.kinds_of(node.tag);
+  unread_kinds_.insert(elsewhere.begin(), elsewhere.end());
   if (!elsewhere.empty()) {
     complaints_.error(node.at, fmt::format("<{}> belongs in <{}>, not in <{}>", node.tag, kind_name(elsewhere.front()), kind_name(kind)));
     return;
@@ -171,6 +185,14 @@ void Assembly::complain_of_tag(Kind kind, const Node& node) {
   complaints_.error(node.at, fmt::format("no <{}> in <{}>{}", node.tag, kind_name(kind),
                                          did_you_mean(node.tag, catalogue_.tags(kind), "<", ">")));
 }
+
+void Assembly::note_unread(const Node& node) {
+  for (const Attribute& attribute : node.attributes)
+    for (std::string& word : split_words(attribute.value)) unread_names_.insert(std::move(word));
+  for (const auto& child : node.children) note_unread(*child);
+}
+
+bool Assembly::is_read(Kind kind) const { return !unread_kinds_.contains(kind); }
 
 void Assembly::enlist(Plugin& plugin, Kind kind, Stage& stage) {
   switch (kind) {
@@ -209,6 +231,7 @@ void Assembly::merge_common_into_stages() {
 }
 
 void Assembly::check_stage(Stage& stage) {
+  if (stage.movers.empty() && !is_read(Kind::move)) return;
   if (stage.movers.size() != 1) {
     const std::string where = stage.name == "run" ? "a deck" : fmt::format("stage '{}'", stage.name);
     complaints_.error(stage.movers.empty() ? stage.at : stage.movers[1]->at(),
@@ -249,6 +272,8 @@ void Assembly::compile_until(Stage& stage) {
     at = stage.mover().until.at();
   } else if (stage.mover().until.in_deck()) {
     return;  // what is wrong with it has been said
+  } else if (!is_read(Kind::move)) {
+    return;  // it may be there, misspelt
   } else {
     complaints_.error(stage.mover().at(), fmt::format("<{}> needs 'until': {}", stage.mover().tag(), stage.mover().until.info().doc));
     return;
@@ -258,7 +283,7 @@ void Assembly::compile_until(Stage& stage) {
   for (const std::string& set : stage.until->sets()) {
     bool driven = false;
     for (const Constraint& c : stage.constraints()) driven |= c.driven && c.set == set;
-    if (!driven) complaints_.error(at, fmt::format("'until' watches set '{}', which nothing in <load> drives", set));
+    if (!driven && is_read(Kind::load)) complaints_.error(at, fmt::format("'until' watches set '{}', which nothing in <load> drives", set));
   }
 }
 

@@ -21,6 +21,8 @@ class Assembly {
   void read_sections(const Node& parent, Stage& stage, PlainNode& plain, bool inside_stage);
   void read_section(Kind kind, const Node& section, Stage& stage, PlainNode& plain);
   void complain_of_tag(Kind kind, const Node& node);
+  void note_unread(const Node& node);
+  bool is_read(Kind kind) const;
   void enlist(Plugin& plugin, Kind kind, Stage& stage);
   PlainNode resolved(const Plugin& plugin) const;
   void merge_common_into_stages();
@@ -63,6 +65,9 @@ class Assembly {
   std::map<std::string, const Node*> until_nodes_;
   std::map<const Watcher*, bool> waits_for_pull_;  ///< and whether something is pulled in one of its stages
   std::map<std::string, int> counts_;
+  // One mistake, one message: what follows only from a tag, an attribute or a value that could not be read is not told too.
+  std::set<Kind> unread_kinds_;         ///< sections in which something could not be read
+  std::set<std::string> unread_names_;  ///< words of what could not be read: may name sets and families
 };
 
 }  // namespace beadwork

@@ -28,11 +28,15 @@ std::set<std::string> Assembly::made_names(Role role, const std::string& what) {
 }
 
 void Assembly::check_uses_of(Role role, const std::string& what, const std::set<std::string>& known) {
+  const Role makes = role == Role::set ? Role::makes_set : Role::makes_family;
+  for (const auto& plugin : scene_.plugins)
+    for (const ParamBase* p : plugin->params())
+      if (p->info().role == makes && p->in_deck() && !p->given()) return;  // it might make any name
   for (const auto& plugin : scene_.plugins)
     for (const ParamBase* p : plugin->params()) {
       if (p->info().role != role) continue;
       for (const std::string& name : p->names())
-        if (!known.contains(name))
+        if (!known.contains(name) && !unread_names_.contains(name))
           complaints_.error(p->at(name), fmt::format("'{}' names {} \"{}\"{}", p->info().name, what, name,
                                                  known.empty() ? ", but the deck makes none"
                                                                : did_you_mean(name, {known.begin(), known.end()})));

@@ -56,12 +56,18 @@ std::optional<Mark> Mark::of(const Expression& quantity, const std::string& attr
 
 std::vector<Mark> Mark::list(const std::string& text, const std::string& attribute, const Location& at, const Scope& scope,
                              Complaints& complaints) {
+  constexpr std::size_t most = 10'000;
   std::vector<Mark> marks;
-  std::size_t begin = 0;
-  for (const std::string& piece : split(text, ',')) {
+  const std::vector<std::string> pieces = split(text, ',');
+  if (pieces.size() > most) {
+    complaints.error(at, fmt::format("'{}' has more than {} moments", attribute, most));
+    return marks;
+  }
+  Location next = at;
+  for (const std::string& piece : pieces) {
     const std::string word(trim(piece));
-    const Location place = locate(at, begin + (word.empty() ? 0 : piece.find(word)));
-    begin += piece.size() + 1;
+    const Location place = locate(next, word.empty() ? 0 : piece.find(word));
+    next = locate(next, piece.size() + 1);
     if (word.empty()) {
       complaints.error(place, fmt::format("'{}' wants moments such as \"0.3 mm, 1 ms\", got \"{}\"", attribute, text));
       continue;

@@ -2,12 +2,12 @@
 #include <omp.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "core/loop/forecast.hpp"
+#include "core/loop/json_text.hpp"
 #include "core/loop/run_curve.hpp"
 #include "core/loop/summary.hpp"
 #include "core/version.hpp"
@@ -115,7 +115,7 @@ void Run::load() {
   moment_.stage = meta.stage;
   moment_.time = meta.time;
   moment_.step = meta.step;
-  for (const auto& report : nlohmann::json::parse(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
+  for (const auto& report : nlohmann::json::parse(meta.texts.at("packing"))) figures_.packing_reports.push_back(json_text(report));
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;

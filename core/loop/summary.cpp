@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-#include <regex>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/loop/json_text.hpp"
 #include "core/version.hpp"
 
 namespace beadwork {
@@ -70,7 +69,7 @@ std::string summary_json(const Scene& scene, const RunFigures& figures, const Mo
   for (const Break& b : log.breaks) json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] = json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 std::string curve_json(const CurvePlan& plan) {
@@ -80,14 +79,26 @@ std::string curve_json(const CurvePlan& plan) {
   if (!plan.y.empty()) json["y"] = plan.y;
   if (!plan.kind.empty()) json["kind"] = plan.kind;
   if (!plan.references.empty()) json["references"] = plan.references;
-  return json.dump(2) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
+namespace {
+
+/// `line` without each piece that begins so and goes on to the next quote.
+std::string without(std::string line, std::string_view begin) {
+  for (std::size_t at = line.find(begin); at != std::string::npos; at = line.find(begin, at)) {
+    const std::size_t quote = line.find('"', at + begin.size());
+    line.erase(at, quote == std::string::npos ? quote : quote + 1 - at);
+  }
+  return line;
+}
+
+}  // namespace
+
 void refuse_other_deck(const std::string& saved, const std::string& now) {
-  static const std::regex free(R"re(( (until|every)="[^"]*")|(<scene name="[^"]*"))re");
   const auto lines = [](const std::string& text) {
     std::vector<std::string> kept;
-    for (const std::string& line : split(text, '\n')) kept.push_back(std::regex_replace(line, free, ""));
+    for (const std::string& line : split(text, '\n')) kept.push_back(without(without(without(line, " until=\""), " every=\""), "<scene name=\""));
     return kept;
   };
   const auto odd = odd_lines(lines(saved), lines(now));

@@ -25,8 +25,13 @@ std::optional<Until> Until::compile(const std::string& text, const Location& at,
   Until until;
   until.text_ = text;
   const std::string separator = " or ";
+  constexpr std::size_t most = 100;
   std::size_t begin = 0;
   while (begin <= text.size()) {
+    if (until.clauses_.size() == most) {
+      complaints.error(at, fmt::format("'until' joins more than {} conditions by 'or'", most));
+      return std::nullopt;
+    }
     const std::size_t end = std::min(text.find(separator, begin), text.size());
     const auto made = clause(text.substr(begin, end - begin), locate(at, begin), scope, complaints);
     if (!made) return std::nullopt;
@@ -73,7 +78,7 @@ std::optional<Until::Clause> Until::watched(const std::vector<std::string>& word
   if (!quantity) return std::nullopt;
   clause.value = quantity->evaluate();
   const std::string unit = clause.of_maximum ? "1" : clause.watches_force ? "N" : "m";
-  if (quantity->dimension() == find_unit(unit)->dimension) return clause;
+  if (quantity->has_dimension(find_unit(unit)->dimension)) return clause;
   complaints.error(at, fmt::format("'until' compares {} with {}, got \"{}\"", clause.of_maximum ? "a share" : words[0],
                                    wanted_by(unit), trim(value)));
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/base/failure.hpp"
+#include "core/base/readable.hpp"
 #include "core/base/text.hpp"
 
 namespace beadwork {
@@ -16,11 +17,12 @@ namespace fs = std::filesystem;
 namespace {
 
 std::vector<fs::path> libraries_in(const fs::path& place) {
-  std::error_code ignored;
-  if (!fs::is_directory(place, ignored)) return {place};
+  std::error_code error;
+  if (!fs::is_directory(place, error)) return {place};
   std::vector<fs::path> found;
-  for (const auto& file : fs::directory_iterator(place, ignored))
-    if (file.path().extension() == ".so") found.push_back(file.path());
+  for (auto file = fs::directory_iterator(place, error); !error && file != fs::directory_iterator(); file.increment(error))
+    if (file->path().extension() == ".so") found.push_back(file->path());
+  if (error) throw LibraryFailure(fmt::format("cannot look for plugin libraries in {}: {}", place.string(), error.message()));
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -40,8 +42,7 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
   std::vector<fs::path> opened;
   for (const fs::path& place : places) {
     for (const fs::path& path : libraries_in(place)) {
-      std::error_code ignored;
-      const fs::path real = widest_variant(fs::weakly_canonical(path, ignored), sets);
+      const fs::path real = widest_variant(canonical_path(path.string()), sets);
       if (std::find(opened.begin(), opened.end(), real) != opened.end()) continue;
       opened.push_back(real);
       catalogue.add(open_library(real));

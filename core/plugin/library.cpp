@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/base/failure.hpp"
+#include "core/base/readable.hpp"
 #include "core/plugin/stamp.hpp"
 
 namespace beadwork {
@@ -15,8 +16,7 @@ namespace {
 
 // What the loader says is lost on the way through Boost.DLL; it is asked once more.
 std::string why_not(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return "there is no such file";
+  if (std::string why = why_unreachable(path); !why.empty()) return why;
   dlerror();
   dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   const char* said = dlerror();

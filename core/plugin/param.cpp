@@ -86,7 +86,7 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
     c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, a.value));
     return false;
   }
-  if (!condition && value.expression->dimension() == find_unit(info.unit)->dimension) return true;
+  if (value.expression->has_dimension(find_unit(info.unit)->dimension)) return true;
   c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), a.value,
                                   condition ? "a condition" : value.expression->dimension().name()));
   return false;
@@ -138,9 +138,9 @@ void ParamBase::read(const Attribute& attribute, const Scope& scope, Complaints&
 }
 
 Location ParamBase::at(const std::string& word) const {
-  const auto is_blank = [&](std::size_t k) { return k >= written_.size() || std::string_view(" \t\r\n").find(written_[k]) != std::string_view::npos; };
+  const auto is_border = [&](std::size_t k) { return k >= written_.size() || is_blank(written_[k]); };
   for (std::size_t k = written_.find(word); !word.empty() && k != std::string::npos; k = written_.find(word, k + 1))
-    if ((k == 0 || is_blank(k - 1)) && is_blank(k + word.size())) return locate(at_, k);
+    if ((k == 0 || is_border(k - 1)) && is_border(k + word.size())) return locate(at_, k);
   return at_;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "core/base/text.hpp"
 
 namespace beadwork {
@@ -44,13 +46,16 @@ void Plugin::configure(const Node& node, const std::string& id, const Scope& sco
   id_ = id;
   at_ = node.at;
   std::vector<std::string> known;
+  for (const ParamBase* p : params_) known.push_back(p->info().name);
+  std::set<std::string> misspelt;  // what is wanted, where an unknown attribute is that
+  for (const Attribute& attribute : node.attributes)
+    if (!param(attribute.name)) misspelt.insert(closest(attribute.name, known));
   for (ParamBase* p : params_) {
-    known.push_back(p->info().name);
     if (const Attribute* attribute = node.find(p->info().name)) {
       p->read(*attribute, scope, complaints);
     } else if (p->info().instead.empty() || !node.find(p->info().instead)) {
       p->read_fallback(node.at, scope, complaints);
-      if (p->needed())
+      if (p->needed() && !misspelt.contains(p->info().name))
         complaints.error(node.at, fmt::format("<{}> needs '{}': {}", tag_, p->info().name, p->info().doc));
     }
   }

@@ -32,8 +32,9 @@ class ADeck : public testing::Test {
   }
 
   /// Reads a deck of this text.
-  Deck& read(const std::string& text, const std::vector<Override>& overrides = {}) {
+  Deck& read(const std::string& text, const std::vector<Override>& overrides = {}, const std::vector<std::pair<std::string, std::string>>& others = {}) {
     file("deck.xml", text);
+    for (const auto& [name, other] : others) file(name, other);
     deck = read_deck("deck.xml", overrides, complaints);
     if (!deck) {
       ADD_FAILURE() << complaints.text();
@@ -173,7 +174,7 @@ TEST_F(ADeck, splices_included_files_in_their_place) {
   EXPECT_THAT(tags, ElementsAre("z", "a", "b", "c"));
   EXPECT_EQ(deck->root->child("a")->at.where(), "library/two.xml:2:35");
   EXPECT_EQ(deck->sources.size(), 3u);
-  deck->scope.complain_about_unused(complaints);  // a library may define more than a deck needs
+  deck->scope.complain_about_unused(*deck->root, complaints);  // a library may define more than a deck needs
   EXPECT_TRUE(complaints.empty()) << complaints.text();
 }
 
@@ -216,7 +217,7 @@ TEST_F(ADeck, works_out_parameters_that_use_earlier_and_later_ones) {
       "<scene><parameter name=\"half\" value=\"${side/2}\"/><parameter name=\"side\" value=\"28 um\"/><a "
       "q=\"${half + 1 um}\"/></scene>");
   EXPECT_DOUBLE_EQ(*read_quantity(attribute("q"), "m", deck->scope, complaints), 15e-6);
-  deck->scope.complain_about_unused(complaints);
+  deck->scope.complain_about_unused(*deck->root, complaints);
   EXPECT_TRUE(complaints.empty()) << complaints.text();
   EXPECT_EQ(deck->root->children.size(), 1u);
 }
@@ -236,9 +237,20 @@ TEST_F(ADeck, with_a_parameter_that_depends_on_itself_is_refused_once) {
 }
 
 TEST_F(ADeck, with_an_unused_parameter_is_refused) {
-  read("<scene>\n  <parameter name=\"side\" value=\"28 um\"/></scene>")
-      .scope.complain_about_unused(complaints);
+  read("<scene>\n  <parameter name=\"side\" value=\"28 um\"/></scene>");
+  deck->scope.complain_about_unused(*deck->root, complaints);
   EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:20: error: parameter 'side' is used nowhere"));
+}
+
+TEST_F(ADeck, is_not_told_of_a_parameter_whose_user_could_not_be_read) {
+  read(
+      "<scene><parameter name=\"E\" value=\"7 Gpa\"/><parameter name=\"I-x\" value=\"1 m^4\"/><parameter name=\"L\" value=\"${2*k}\"/>"
+      "<parameter name=\"k\" value=\"3 mm\"/>\n<parameter name=\"other\" value=\"1\"/><a q=\"${E*(I-x-1 m^4)/L}\"/></scene>");
+  EXPECT_FALSE(read_quantity(attribute("q"), "N.m", deck->scope, complaints));
+  EXPECT_EQ(complaints.errors(), 1) << complaints.text();
+  deck->scope.complain_about_unused(*deck->root, complaints);
+  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:18: error: parameter 'other' is used nowhere"));
+  EXPECT_EQ(complaints.errors(), 2) << complaints.text();
 }
 
 TEST_F(ADeck, with_two_parameters_of_one_name_is_refused) {
@@ -309,6 +321,81 @@ TEST_F(ADeck, cannot_be_blown_up_by_parameters) {
   EXPECT_THAT(complaints.text(), HasSubstr("more than 100 deep"));
 }
 
+TEST_F(ADeck, cannot_be_held_up_by_parameters_that_grow) {
+  std::string text = "<scene><parameter name=\"p0\" value=\"x\"/>";
+  for (int i = 1; i <= 80; ++i) {
+    const std::string before = "${p" + std::to_string(i - 1) + "}";
+    text += "<parameter name=\"p" + std::to_string(i) + "\" value=\"" + before + before + "\"/>";
+  }
+  read(text + "<a t=\"${p80}\"/></scene>", {{"p0", ""}});  // nothing, 2^80 times
+  EXPECT_EQ(deck->scope.text("p80", {}, complaints), "");
+  EXPECT_EQ(complaints.errors(), 0) << complaints.text();
+  read(text + "<a t=\"${p80}\"/></scene>");
+  EXPECT_FALSE(read_text(attribute("t"), deck->scope, complaints));
+  EXPECT_EQ(complaints.errors(), 1) << complaints.text();
+  EXPECT_THAT(complaints.text(), HasSubstr("this text becomes longer than 100000 characters"));
+}
+
+TEST_F(ADeck, with_a_value_of_megabytes_is_refused_in_few_words) {
+  std::string numbers;
+  while (numbers.size() < 10'000'000) numbers += "1 ";
+  read("<scene>\n<a q=\"" + numbers + "mm\" w=\"" + numbers + "\" n=\"" + numbers.substr(0, 900'000) + "\"/></scene>");
+  EXPECT_FALSE(read_quantities(attribute("q"), "m", deck->scope, complaints));
+  EXPECT_FALSE(read_words(attribute("w"), deck->scope, complaints));
+  EXPECT_FALSE(read_quantities(attribute("n"), "1", deck->scope, complaints));
+  EXPECT_FALSE(read_words(attribute("n"), deck->scope, complaints));
+  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:7: error: 'q' wants values, each a length"));
+  EXPECT_THAT(complaints.text(), HasSubstr("a value of more than 1000000 characters: data belong into a file"));
+  EXPECT_THAT(complaints.text(), HasSubstr("these are more than 10000 values"));
+  EXPECT_EQ(complaints.errors(), 4) << complaints.text();
+  EXPECT_LT(complaints.text().size(), 20'000u);
+}
+
+// ---- What other tools write
+
+TEST_F(ADeck, may_hold_what_is_meant_for_other_tools) {
+  read(
+      "<?xml version=\"1.0\"?>\n<!-- a remark -->\n<?xml-model href=\"a.xsd\"?>\n<?xml-stylesheet href=\"a.css\"?>\n"
+      "<scene xml:lang=\"en\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"a.xsd\">"
+      "<parameter name=\"p\" value=\"1\" xml:id=\"here\"/><include file=\"part.xml\" xml:base=\"x\"/><?other tool?>"
+      "<a xmlns:xi=\"x\" xml:space=\"preserve\" q=\"${p}\"/></scene>\n<?end?>\n",
+      {}, {{"part.xml", "<scene xmlns=\"x\" xsi:type=\"y\"/>"}});
+  EXPECT_TRUE(complaints.empty()) << complaints.text();
+  ASSERT_EQ(deck->root->child("a")->attributes.size(), 1u);
+  EXPECT_EQ(attribute("q").value_at.where(), "deck.xml:5:264");
+  EXPECT_THAT(complaint("<scene xmlnsx=\"a\"/>\n<?not closed"), HasSubstr("deck.xml:2:1: error: this is not closed by ?>"));
+}
+
+TEST_F(ADeck, takes_every_kind_of_blank_for_one) {
+  read("<scene>\n\u00A0\u3000<a\u00A0q=\"1\u00A02\u20093&#xA0;mm\"\u2003t=\"\u00A0one\u2009two\u00A0\"/>\u2028</scene>");
+  EXPECT_EQ(read_vector(attribute("q"), "m", deck->scope, complaints), Vec3(1e-3, 2e-3, 3e-3));
+  EXPECT_EQ(attribute("t").value_at.where(), "deck.xml:2:26") << "a column is a character, however many bytes it has";
+  EXPECT_EQ(read_words(attribute("t"), deck->scope, complaints), (std::vector<std::string>{"one", "two"}));
+  read("<scene><parameter name=\"p\" value=\"1 mm\"/><a q=\"${p\u00A0*\u00A02}\"/></scene>", {{"p", "2\u00A0mm"}});
+  EXPECT_EQ(read_quantity(attribute("q"), "m", deck->scope, complaints), 4e-3);
+  EXPECT_TRUE(complaints.empty()) << complaints.text();
+}
+
+TEST_F(ADeck, with_a_character_that_nobody_sees_is_refused_at_its_place) {
+  EXPECT_EQ(complaint("<scene>\n<a q=\"1\u200B mm\"/></scene>"), "deck.xml:2:8: error: U+200B, a zero-width space, stands here in 'q': delete it");
+  EXPECT_EQ(complaint("<scene>\n<a q=\"so\u00ADft\"/></scene>"), "deck.xml:2:9: error: U+00AD, a soft hyphen, stands here in 'q': delete it");
+  EXPECT_EQ(complaint("<scene>\n<a q=\"1&#x1B;\"/></scene>"), "deck.xml:2:8: error: U+001B, a control character, stands here in 'q': delete it");
+  EXPECT_EQ(complaint("<scene>\n\uFEFF<a/></scene>"),
+            "deck.xml:2:1: error: U+FEFF, a byte order mark, which may stand only at the beginning, stands here: delete it");
+  EXPECT_EQ(complaint("<scene>\n<a\u2060 q=\"1\"/></scene>"), "deck.xml:2:3: error: U+2060, a word joiner, stands here: delete it");
+  EXPECT_EQ(complaint("\u200B<scene/>"), "deck.xml:1:1: error: U+200B, a zero-width space, stands here: delete it");
+  EXPECT_EQ(complaint("<scene><parameter name=\"p\" value=\"1\"/></scene>", {{"p", "1\u200B"}}),
+            "--set:1:4: error: U+200B, a zero-width space, stands here: leave it out");
+  EXPECT_EQ(complaint("<scene><parameter name=\"p\" value=\"1\"/></scene>", {{"p", "1\xFF"}}),
+            "--set:1:4: error: a byte that is no text in UTF-8, stands here: leave it out");
+  EXPECT_EQ(complaint("<scene>\xED\xA0\x80</scene>"), "deck.xml:1:8: error: this is no text in UTF-8") << "half of a pair of UTF-16";
+}
+
+TEST_F(ADeck, with_a_curly_quote_is_told_so) {
+  EXPECT_EQ(complaint("<scene>\n<a q=\u201C1\u201D/></scene>"),
+            "deck.xml:2:6: error: 'q' needs a value in quotes: q=\"...\"; here stands '\u201C' (U+201C; write \")");
+}
+
 // ---- Values
 
 /// A deck with one tag <a value="..."> and the parameters side, n, point and name.
@@ -371,6 +458,10 @@ TEST_F(AValue, that_is_not_what_is_wanted_is_refused_in_words) {
   EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"5\"");
   EXPECT_FALSE(quantity("5", "J/m2"));
   EXPECT_EQ(said(), "11: 'value' wants J/m2, got \"5\" without a unit");
+  EXPECT_FALSE(quantity("7.85 ton/m^3", "kg/m^3"));
+  EXPECT_EQ(said(),
+            "16: 'value' wants a density such as \"1200 kg/m^3\", got \"7.85 ton/m^3\": unit \"ton\" is refused: there are several tons; write t "
+            "(1000 kg), short_ton (907.18 kg) or long_ton (1016.05 kg)");
   EXPECT_FALSE(quantity("3 GPA", "Pa"));
   EXPECT_EQ(said(), "13: 'value' wants Pa, got \"3 GPA\": unknown unit \"GPA\". Did you mean \"GPa\"?");
   EXPECT_FALSE(quantity("${n}", "m"));
@@ -409,16 +500,33 @@ TEST_F(AValue, of_an_angle_needs_its_unit) {
   EXPECT_EQ(said(), "11: 'value' wants an angle such as \"30 degree\", got \"30\"");
 }
 
+TEST_F(AValue, that_is_zero_needs_no_unit) {
+  EXPECT_EQ(quantity("0", "m"), 0);
+  EXPECT_EQ(quantity("${0*n}", "Pa"), 0);
+  EXPECT_EQ(quantity("0", "degree"), 0);
+  EXPECT_TRUE(complaints.empty()) << complaints.text();
+  EXPECT_FALSE(quantity("0 s", "m"));
+  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"0 s\" which is s");
+}
+
+TEST_F(AValue, with_a_sign_that_only_looks_like_the_one_that_is_meant_is_refused) {
+  EXPECT_FALSE(quantity("\u22121 mm", "m"));
+  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"\u22121 mm\": '\u2212' (U+2212; write -) means nothing here");
+  EXPECT_FALSE(quantity("1\u20132 mm", "m"));
+  EXPECT_EQ(said(), "12: 'value' wants a length such as \"1 mm\", got \"1\u20132 mm\": '\u2013' (U+2013; write -) means nothing here");
+  EXPECT_FALSE(quantity("2 kg\u2044m", "kg/m"));
+  EXPECT_THAT(said(), HasSubstr("15: 'value' wants")) << "at the sign itself";
+}
+
 TEST_F(AValue, may_be_a_vector_whose_unit_stands_once) {
   EXPECT_EQ(vector("14 14 28 um", "m"), Vec3(14e-6, 14e-6, 28e-6));
   EXPECT_EQ(vector("${side} ${side} 2 mm", "m"), Vec3(28e-6, 28e-6, 2e-3));
   EXPECT_EQ(vector("1 cm 2 3 mm", "m"), Vec3(1e-2, 2e-3, 3e-3));
   EXPECT_EQ(vector("1 0 -1", "1"), Vec3(1, 0, -1));
-  EXPECT_EQ(vector("0 0 ${side}", "m"), Vec3(0, 0, 28e-6)) << "zero needs no unit beside others that have theirs";
+  EXPECT_EQ(vector("0 0 ${side}", "m"), Vec3(0, 0, 28e-6)) << "zero needs no unit";
+  EXPECT_EQ(vector("0 0 0", "m"), Vec3(0, 0, 0));
   EXPECT_FALSE(vector("0 1 ${side}", "m"));
   EXPECT_THAT(said(), HasSubstr(": 1 has no unit"));
-  EXPECT_FALSE(vector("0 0 0", "m"));
-  EXPECT_THAT(said(), HasSubstr(": 0 has no unit"));
   EXPECT_EQ(vector("${point}", "m"), Vec3(1e-3, 2e-3, 3e-3));
   EXPECT_TRUE(complaints.empty()) << complaints.text();
   EXPECT_FALSE(vector("1 2 mm", "m"));

@@ -126,11 +126,65 @@ TEST_F(AnExpression, refuses_to_add_or_compare_what_has_another_dimension) {
             "3: the two sides of '+' differ: the left is in m, the right is a plain number");
   EXPECT_EQ(complaint("x < 3"),
             "3: the two sides of '<' differ: the left is in m, the right is a plain number");
-  EXPECT_EQ(complaint("x > 0"),
-            "3: the two sides of '>' differ: the left is in m, the right is a plain number");
   EXPECT_EQ(complaint("(1 + n)*(x - 25 MPa)"),
             "12: the two sides of '-' differ: the left is in m, the right is in Pa");
   EXPECT_EQ(complaint("max(x, 2)"), "6: the arguments differ: the left is in m, the right is a plain number");
+}
+
+TEST_F(AnExpression, takes_a_zero_without_a_unit_for_any_quantity) {
+  parameter("nothing", "0");
+  parameter("zero-length", "0 mm");
+  for (const char* is_true : {"x > 0", "0 < x", "x >= nothing", "x > zero-length", "-x <= -0", "x != 0 and n != 0", "x + 0 == 0 + x"})
+    EXPECT_EQ(value(is_true), 1) << is_true;
+  EXPECT_EQ(unit("0 - x"), "m");
+  EXPECT_EQ(unit("max(0, x)"), "m");
+  EXPECT_EQ(unit("if(n > 1, 0, x)"), "m");
+  EXPECT_EQ(complaint("x > 0 N"), "3: the two sides of '>' differ: the left is in m, the right is in N");
+  EXPECT_EQ(complaint("x > 1"), "3: the two sides of '>' differ: the left is in m, the right is a plain number");
+  EXPECT_THAT(complaint("x > n - n"), HasSubstr("the right is a plain number")) << "only what is 0 whatever happens";
+  EXPECT_TRUE(compile("0")->has_dimension(find_unit("N")->dimension));
+  EXPECT_FALSE(compile("0 m")->has_dimension(find_unit("N")->dimension));
+  EXPECT_FALSE(compile("n")->has_dimension(find_unit("N")->dimension));
+}
+
+TEST_F(AnExpression, takes_several_signs_before_an_operand) {
+  EXPECT_EQ(value("--5"), 5);
+  EXPECT_EQ(value("---5"), -5);
+  EXPECT_EQ(value("3 - -+-2"), 1);
+  EXPECT_EQ(value("2^--2"), 4);
+  EXPECT_EQ(value("--2^2"), 4);
+  EXPECT_EQ(value("2*--n"), 6);
+  EXPECT_EQ(value("abs(- -x)"), 0.002);
+  for (const char* is_true : {"not -x > 1 mm", "not not n == 3", "not - -n < 0 and n > 0", "not not not n < 1", "n < 1 or not +n == 2",
+                              "if(not -n > 0, not -n > 0, n > 9)", "(not -x > 1 mm) and not --x < 1 mm"})
+    EXPECT_EQ(value(is_true), 1) << is_true;
+  for (const char* is_false : {"not -n < 0 or n < 0", "not not -x > 1 mm"}) EXPECT_EQ(value(is_false), 0) << is_false;
+  EXPECT_THAT(complaint("--(n < 1)"), HasSubstr("a condition is no number"));
+  EXPECT_EQ(complaint("not -"), "5: an operator cannot stand here");
+  EXPECT_EQ(complaint("n - - "), "7: the expression ends too early");
+  EXPECT_EQ(complaint("-not n < 1"), "2: an operator cannot stand here");
+}
+
+TEST_F(AnExpression, names_a_sign_that_only_looks_like_the_one_that_is_meant) {
+  EXPECT_EQ(complaint("n \u2212 1"), "3: '\u2212' (U+2212; write -) means nothing in an expression");
+  EXPECT_EQ(complaint("n \u2264 1"), "3: '\u2264' (U+2264; write <=) means nothing in an expression");
+  EXPECT_EQ(complaint("n \u00A7 1"), "3: '\u00A7' (U+00A7) means nothing in an expression");
+  EXPECT_EQ(complaint("x < 1 mm\u2212x"), "7: unknown unit \"mm\u2212x\": it holds '\u2212' (U+2212; write -)");
+}
+
+TEST_F(AnExpression, as_deep_and_as_long_as_may_be_harms_nothing) {
+  const auto repeated = [](const std::string& piece, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += piece;
+    return text;
+  };
+  EXPECT_EQ(value(std::string(1900, '(') + "n" + std::string(1900, ')')), 3);
+  EXPECT_EQ(value(std::string(3900, '-') + "n"), 3);
+  EXPECT_EQ(value(repeated("abs(", 700) + "n" + std::string(700, ')')), 3);
+  EXPECT_EQ(value(repeated("not ", 900) + "n == 3"), 1);
+  EXPECT_EQ(value(repeated("n == 3 and ", 350) + "n == 3"), 1);
+  EXPECT_EQ(value(repeated("if(n == 3, ", 250) + "n" + repeated(", 2)", 250)), 3);
+  EXPECT_EQ(value(repeated("2^", 1500) + "1"), INFINITY);
 }
 
 TEST_F(AnExpression, is_checked_in_the_branch_that_is_not_taken_too) {

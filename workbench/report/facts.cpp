@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/loop/json_text.hpp"
 #include "workbench/report/chart.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -36,7 +37,7 @@ std::string shown(const std::string& key, const Json& value, const std::string& 
     for (const Json& entry : value) list += (list.empty() ? "" : ", ") + shown(key, entry, unit);
     return list;
   }
-  if (!value.is_number()) return escaped(value.dump());
+  if (!value.is_number()) return escaped(json_text(value));
   const double v = value.get<double>();
   if (key.ends_with("bytes")) return number(v / 1e6) + " MB";
   if (key.ends_with("per_second")) return v >= 1e6 ? number(v / 1e6, 3) + " million/s" : number(v, 3) + " /s";

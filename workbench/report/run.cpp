@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/failure.hpp"
+#include "core/loop/json_text.hpp"
 #include "workbench/report/text.hpp"
 
 namespace beadwork::report {
@@ -147,7 +148,7 @@ std::string text_of(const Json& json, const std::string& key, const std::string&
   if (!json.is_object()) return otherwise;
   const auto found = json.find(key);
   if (found == json.end()) return otherwise;
-  return found->is_string() ? found->get<std::string>() : found->dump();
+  return found->is_string() ? found->get<std::string>() : json_text(*found);
 }
 
 Run open_run(const fs::path& folder) {

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/utf8.hpp"
+
 namespace beadwork::report {
 
 namespace {
@@ -33,7 +35,7 @@ std::string superscript(int exponent) {
 std::string escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : safe_text(text)) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')
@@ -44,7 +46,7 @@ std::string escaped(std::string_view text) {
       out += "&quot;";
     else if (c == '\'')
       out += "&#39;";
-    else if (static_cast<unsigned char>(c) >= 32 || c == '\n' || c == '\t')
+    else
       out += c;
   }
   return out;
