@@ -65,7 +65,13 @@ finds what no schema can.
 ## Values and expressions
 
 A quantity is a number with a unit: `13.5 mm`, `70 GPa`, `0.5 N/mm`, `2500 kg/m^3`. Several values may share the unit behind the
-last: `0 0 13.5 mm`. A unit of another dimension than the attribute's is an error.
+last: `1 2 13.5 mm`. A unit of another dimension than the attribute's is an error. A 0 needs no unit, neither as a value nor in
+expressions: `x > 0`.
+
+Names of units are spelt exactly as here, with SI prefixes where SI has them: m g s A K mol N Pa J W Hz L bar rad eV tex, their
+words (`millimetre`, `kilopascals`), min h d, t (1000 kg), degree or deg, percent, ppm, in ft yd mi lb lbf kip psi ksi kgf atm mmHg.
+They are joined by `.` `*` `/`, with exponents behind: `N/mm^3`, `J.m-2`, `MPa.m^0.5`. Names that mean several things (ton, gallon, calorie,
+horsepower, year ...) are refused, with what to write instead.
 
 Inside of `${...}`, and in attributes that are a formula or a condition, stand expressions on quantities:
 `${0.3*length + 2 mm}`, `where="x < 13.5 mm and radius > 2 um"`. From the operator that binds least to the one that binds most:
@@ -78,7 +84,7 @@ Inside of `${...}`, and in attributes that are a formula or a condition, stand e
 | `==` `!=` `\<` `\<=` `>` `>=` | comparison | both sides alike |
 | `+` `-` | sum, difference | both sides alike |
 | `*` `/` | product, quotient | any |
-| `-a` | opposite sign | any |
+| `-a` | opposite sign; several may follow: `--a` | any |
 | `a^b` | power, from the right: `2^3^2` is `2^9` | b a plain number; a whole or broken one |
 | `13.5 mm` | a number and its unit | |
 

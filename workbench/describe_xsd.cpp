@@ -11,6 +11,7 @@ namespace {
 // A number, and a number with its unit, as regular expressions of XSD; values are checked with blanks collapsed.
 const std::string number = R"([+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?)";
 const std::string unit = R"(( ?[^ 0-9.+\-$]\S*| 1/\S+))";
+const std::string zero = R"([+\-]?0(\.0*)?)";
 const std::string expression = R"(.*[$]\{.*\}.*)";  // its value is known to the program only
 
 std::string doc_of(const std::string& text, const std::string& indent) {
@@ -25,7 +26,7 @@ std::string pattern_type(const std::string& name, const std::string& pattern, co
 
 std::string value_types() {
   std::string text = pattern_type("number", number + unit + "?", "A plain number");
-  text += pattern_type("quantity", number + unit, "A number with its unit: 13.5 mm");
+  text += pattern_type("quantity", number + unit + "|" + zero, "A number with its unit: 13.5 mm; a 0 needs none");
   text += pattern_type("numbers", fmt::format("({0}{1}? ){{2}}{0}{1}?", number, unit), "Three values: 1 2 3 mm");
   text += pattern_type("switch", "yes|no|true|false", "yes or no");
   text += pattern_type("expression", expression, "${...}: a parameter, or an expression on quantities");

@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
     write_error("error: out of memory\n");
   } catch (const std::filesystem::filesystem_error& error) {
     say_error("error: cannot use '{}': {}\n", error.path1().string(), error.code().message());
+    const bool is_no_path = error.code() == std::errc::filename_too_long || error.code() == std::errc::too_many_symbolic_link_levels;
+    if (is_no_path) return static_cast<int>(ExitCode::deck);
   } catch (const std::exception& error) {
     say_error("error: {}\n", error.what());
   }

@@ -107,7 +107,10 @@ std::string first_of(const Path& root) { return entries_of(root).front().filenam
 
 RunFolder RunFolder::fresh(const Path& root, bool overwrite) {
   error_code error;
-  if (std::filesystem::exists(root, error) && !std::filesystem::is_directory(root, error))
+  const bool exists = std::filesystem::exists(root, error);
+  if (error && error != std::errc::permission_denied)  // a name too long, a loop of links
+    throw DeckFailure(fmt::format("'{}' cannot be the folder of a run: {}", root.string(), error.message()));
+  if (exists && !std::filesystem::is_directory(root, error))
     throw DeckFailure(fmt::format("'{}' is a file; the output of a run is a folder", root.string()));
   make_folder(root);
   RunFolder folder(root);
