@@ -125,6 +125,7 @@ bool Run::over() {
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
 void Run::step() {
   whole_ = false;
+  former_summary_.reset();  // from here on it is this session that ends, one way or another
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   if (rates_are_read_) complete();
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];

@@ -53,7 +53,7 @@ void make_specimen(Domain& domain) {
 }
 
 void record_frames(const fs::path& folder, Domain& domain) {
-  const RunFolder run = RunFolder::fresh(folder, false);
+  RunFolder run = RunFolder::fresh(folder, false);
   RunMeta meta;
   meta.name = "in the record";
   Recorder recorder = Recorder::fresh(run, meta, {}, domain);
