@@ -187,7 +187,9 @@ Handle open_file(const std::filesystem::path& file, Links links) {
   const Handle access = take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open a file");
   // Files are replaced, never changed: who reads one needs no lock, and some file systems have none.
   H5Pset_file_locking(access.id(), false, true);
-  return take(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, "open '" + file.string() + "'");
+  Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  if (!handle) throw MachineFailure(fmt::format("HDF5 cannot open '{}': not an HDF5 file, or not whole", file.string()));
+  return handle;
 }
 
 Handle open_group(hid_t place, const std::string& path) {

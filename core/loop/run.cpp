@@ -125,7 +125,6 @@ bool Run::over() {
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
 void Run::step() {
   whole_ = false;
-  former_summary_.reset();  // from here on it is this session that ends, one way or another
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   if (rates_are_read_) complete();
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
@@ -134,6 +133,7 @@ void Run::step() {
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
   whole_ = true;
   look();
+  former_summary_.reset();  // from here on it is this session that ends, one way or another
 }
 
 // So that what summary.json says of a failed run's energies stands for one moment.

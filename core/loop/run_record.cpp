@@ -173,7 +173,10 @@ void Run::leave_as_found() const {
     write_atomically(folder_.summary(), *former_summary_);
   } catch (const std::exception& failure) {
     options_.warn(fmt::format("summary.json could not be put back: {}", failure.what()));
-    overwrite(folder_.summary(), *former_summary_);
+    try {
+      overwrite(folder_.summary(), *former_summary_);  // in the room that it has
+    } catch (const std::exception&) {  // said already
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 """Damages a run in hundreds of ways, each in a folder of its own, and has all read.   Usage: corpus.py DAMAGED
 
 The damage is the same each time: numbers are drawn from one seed."""
+import json
 import os
 import random
 import shutil
@@ -39,6 +40,15 @@ def check_sum(data):
     return total
 
 
+def edit_checkpoint(path, change):
+    """Changes a checkpoint through h5py, and gives it a check sum that fits."""
+    path.write_bytes(path.read_bytes()[:-TRAILER])
+    with h5py.File(path, "r+") as root:
+        change(root)
+    data = path.read_bytes()
+    path.write_bytes(data + MARK + b"%016x\n" % check_sum(data))
+
+
 class Corpus:
     def __init__(self, out, seeds):
         self.out, self.seeds, self.cases = out, seeds, []
@@ -51,16 +61,12 @@ class Corpus:
         return folder
 
     def edit(self, kind, seed, file, name, change):
-        """Damages one HDF5 file through h5py; a checkpoint gets a new check sum."""
+        """Damages one HDF5 file through h5py."""
         path = self.case(kind, seed, name) / file
-        checkpoint = file == "checkpoint.h5"
-        if checkpoint:
-            path.write_bytes(path.read_bytes()[:-TRAILER])
+        if file == "checkpoint.h5":
+            return edit_checkpoint(path, change)
         with h5py.File(path, "r+") as root:
             change(root)
-        if checkpoint:
-            data = path.read_bytes()
-            path.write_bytes(data + MARK + b"%016x\n" % check_sum(data))
 
 
 def attribute_values():
@@ -228,7 +234,6 @@ def odd_texts(corpus):
         (corpus.case("draw", "finished", f"{file}-deep") / file).write_text("[" * 3000000)
         (corpus.case("draw", "finished", f"{file}-deep-closed") / file).write_text('{"energy":' * 300000 + "1" + "}" * 300000)
     odd = {"status": 3, "name": [1], "energy": 5, "breaks": {"shear": "many"}, "packing": {"a": [{"edges": "x", "counts": []}]}, "bonds": {"resin": {"x": []}}, "notes": [1], "time_step": "x"}
-    import json
     (corpus.case("draw", "finished", "odd-summary") / "summary.json").write_text(json.dumps(odd))
     rows = "step [1],time [s],force [N]\n0,0,1\n10,nan,2\n20,2e-6,inf\n30,3e-6,-1e308\n40,1e999,1e308\n50,5e-6,1e-999\n60,6e-6,3\n"
     (corpus.case("draw", "finished", "odd-curve") / "curves/force.csv").write_text(rows)
@@ -305,4 +310,5 @@ def main():
     return done.returncode
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

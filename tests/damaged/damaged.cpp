@@ -63,7 +63,7 @@ void read_for_report(const fs::path& root) {
     report::leave_out_odd(frames.back());
     report::complete_displacement(frames.back(), frames.front());
   }
-  if (!frames.empty()) report::set_up(frames.front(), frames, sets);
+  if (!frames.empty()) report::set_up(frames.front(), frames, sets, report::wanted_view(frames));
 }
 
 void load(const fs::path& root, Domain& domain) {

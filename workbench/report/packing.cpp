@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "workbench/report/chart.hpp"
 #include "workbench/report/sections.hpp"
+#include "workbench/report/table.hpp"
 #include "workbench/report/text.hpp"
 
 namespace beadwork::report {
