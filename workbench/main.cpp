@@ -3,11 +3,13 @@
 
 #include "core/base/failure.hpp"
 #include "core/version.hpp"
+#include "workbench/signals.hpp"
 #include "workbench/verbs.hpp"
 
 using namespace beadwork;
 
 int main(int argc, char** argv) {
+  hold_standard_streams();
   CLI::App app{"Beadwork: a workbench for the discrete element method of bonded solids", "beadwork"};
   app.set_version_flag("--version", version);
   app.require_subcommand(1);

@@ -1,25 +1,19 @@
 #include "core/loop/run.hpp"
 
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
-#include <csignal>
 #include <thread>
 
 #include "core/base/failure.hpp"
 #include "core/version.hpp"
 #include "workbench/progress.hpp"
+#include "workbench/run_log.hpp"
+#include "workbench/signals.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
 
 namespace {
-
-std::atomic<int> interrupted{0};
-
-void note_signal(int number) { interrupted = number; }
 
 struct RunArguments {
   DeckArguments deck;
@@ -29,24 +23,12 @@ struct RunArguments {
   double checkpoint_minutes = 10;
 };
 
-std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder, const RunArguments& arguments) {
-  auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !arguments.resume);
-  auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-  file->set_pattern("%Y-%m-%d %H:%M:%S %l %v");
-  console->set_pattern("%v");
-  console->set_level(arguments.quiet ? spdlog::level::warn : spdlog::level::info);
-  auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, console});
-  log->flush_on(spdlog::level::info);
-  return log;
-}
-
 int run(const RunArguments& arguments) {
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
+  heed_signals();
   Loaded loaded = load_scene(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
-  const auto log = make_log(folder, arguments);
+  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet);
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;

@@ -44,25 +44,32 @@ std::uintmax_t length_up_to(std::ifstream& in, std::uintmax_t first_row, std::in
   return length;
 }
 
-std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
-  std::string head;
-  if (!std::getline(in, head)) throw file_failure("read", file, EIO);
-  return head;
+std::ifstream open_to_read(const std::filesystem::path& file) {
+  open_regular(file, O_RDONLY, "read");  // refuses what would be followed or waited for
+  return std::ifstream(file, std::ios::binary);
 }
 
-void cut(const std::filesystem::path& file, std::int64_t step) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string head = head_of(in, file);
-  std::error_code error;
-  std::filesystem::resize_file(file, length_up_to(in, head.size() + 1, step), error);
-  if (error) throw file_failure("cut", file, error.value());
+std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
+  std::string head;
+  if (!std::getline(in, head) || in.eof()) throw MachineFailure(fmt::format("curve '{}' has no first line; remove it to go on without its rows", file.string()));
+  return head;
 }
 
 }  // namespace
 
-void cut_curves(const std::filesystem::path& folder, std::int64_t step) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".csv") cut(entry.path(), step);
+std::vector<CurveCut> cuts_after(std::int64_t step, const std::vector<std::filesystem::path>& files) {
+  std::vector<CurveCut> cuts;
+  for (const auto& file : files) {
+    std::ifstream in = open_to_read(file);
+    const std::string head = head_of(in, file);
+    cuts.push_back({file, length_up_to(in, head.size() + 1, step)});
+  }
+  return cuts;
+}
+
+void cut(const std::vector<CurveCut>& cuts) {
+  for (const CurveCut& cut : cuts)
+    if (::ftruncate(open_regular(cut.file, O_WRONLY, "cut").number(), static_cast<off_t>(cut.length)) != 0) throw file_failure("cut", cut.file, errno);
 }
 
 Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
@@ -75,7 +82,7 @@ Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveCol
 Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return fresh(file, columns);
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in = open_to_read(file);
   const std::string head = head_of(in, file);
   if (head != first_line(columns))
     throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
@@ -87,8 +94,7 @@ Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveCo
 }
 
 void Curve::open() {
-  descriptor_ = Descriptor(::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
-  if (!descriptor_) throw file_failure("write", file_, errno);
+  descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "write");
 }
 
 void Curve::add(std::int64_t step, std::span<const Real> values) {

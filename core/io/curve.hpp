@@ -24,7 +24,7 @@ class Curve {
  public:
   /// Writes the first line. The step comes first by itself; `columns` follow it.
   static Curve fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
-  /// Takes up a curve that `cut_curves` has cut. A file that is not there is begun. DeckFailure if its first line is another one.
+  /// Takes up a curve that `cut` has cut. A file that is not there is begun. DeckFailure if its first line is another one.
   static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
 
   /// Throws MachineFailure if the row could not be written; the rows before it then still stand.
@@ -47,7 +47,14 @@ class Curve {
   std::string row_;
 };
 
-/// Drops the rows after `step` of all curves in a folder, and last rows that a kill has torn.
-void cut_curves(const std::filesystem::path& folder, std::int64_t step);
+/// Where a curve is to be cut.
+struct CurveCut {
+  std::filesystem::path file;
+  std::uintmax_t length = 0;
+};
+/// The cuts that drop the rows after `step` of these curves, and last rows that a kill has torn. Changes nothing: a resume looks at
+/// everything before it cuts anything. MachineFailure if one cannot be read.
+std::vector<CurveCut> cuts_after(std::int64_t step, const std::vector<std::filesystem::path>& files);
+void cut(const std::vector<CurveCut>& cuts);
 
 }  // namespace beadwork

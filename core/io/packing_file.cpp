@@ -20,7 +20,7 @@ namespace beadwork {
 namespace {
 
 StoredPacking first_frame(const std::filesystem::path& file) {
-  const record::FrameReader reader(file);
+  const record::FrameReader reader(file, Links::follow);
   if (reader.frames().empty()) throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
   record::Frame frame = reader.read(reader.frames().front());
   return {std::move(frame.position), std::move(frame.radius)};

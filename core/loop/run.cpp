@@ -133,6 +133,7 @@ void Run::step() {
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
   whole_ = true;
   look();
+  former_summary_.reset();  // from here on it is this session that ends, one way or another
 }
 
 // So that what summary.json says of a failed run's energies stands for one moment.

@@ -33,6 +33,7 @@ struct RunFigures {
   Real wall_seconds = 0, loop_seconds = 0;  ///< the loop's are those of steps and looks, without filling and checkpoints
   Real bond_updates = 0;
   std::vector<std::string> packing_reports;  ///< JSON objects
+  std::vector<std::string> notes;            ///< what is to be known of the record, a sentence each
 };
 
 /// What a few steps of the first stage tell of a run, for `plan`.
@@ -99,10 +100,14 @@ class Run final : private Workings, private Sight {
 
   // what is saved (run_record.cpp)
   void open_record();
+  std::vector<std::filesystem::path> curves_to_cut() const;
   void store_state();
   void restore_state();
   void save();
   void load();
+  void check_restored(const CheckpointMeta& meta) const;
+  std::optional<std::string> ended_summary() const;
+  void leave_as_found() const;
   bool save_now_and_then(Clock::time_point now);  ///< whether it saved
   void write_summary();
   std::string summary() const;
@@ -164,6 +169,7 @@ class Run final : private Workings, private Sight {
   std::optional<Recorder> recorder_;
   bool watched_ = true;  ///< false in a trial: no watcher looks by itself
   bool has_checkpoint_ = false;
+  std::optional<std::string> former_summary_;  ///< of the run that is resumed, as long as no step has been made
   std::int64_t saved_step_ = 0;  ///< of the newest checkpoint
   Clock::time_point began_, saved_, shown_;
 };

@@ -2,11 +2,11 @@
 #include <omp.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
+#include "core/loop/bounded_json.hpp"
 #include "core/loop/forecast.hpp"
 #include "core/loop/run_curve.hpp"
 #include "core/loop/summary.hpp"
@@ -31,12 +31,27 @@ RunMeta Run::meta() const {
 }
 
 void Run::open_record() {
-  write_atomically(folder_.resolved(), scene_.resolved);
   const Recorder::Options options;
-  if (options_.resume) cut_curves(folder_.curves(), moment_.step);
-  recorder_ = options_.resume ? Recorder::resume(folder_, meta(), options, domain(), moment_.step)
-                              : Recorder::fresh(folder_, meta(), options, domain());
+  if (!options_.resume) {
+    recorder_ = Recorder::fresh(folder_, meta(), options, domain());
+  } else {
+    const auto cuts = cuts_after(moment_.step, curves_to_cut());
+    folder_.clear_leftovers();
+    recorder_ = Recorder::resume(folder_, meta(), options, domain(), moment_.step);
+    cut(cuts);
+  }
+  for (const std::string& note : recorder_->notes()) {
+    options_.warn(note);
+    figures_.notes.push_back(note);
+  }
+  write_atomically(folder_.resolved(), scene_.resolved);
   write_summary();
+}
+
+std::vector<std::filesystem::path> Run::curves_to_cut() const {
+  auto files = folder_.made_in(folder_.curves());
+  std::erase_if(files, [](const auto& file) { return file.extension() != ".csv"; });
+  return files;
 }
 
 Real& Run::state(const std::string& name) { return domain().scene().column(name).view<Real>()[0]; }
@@ -112,14 +127,57 @@ void Run::load() {
   const CheckpointMeta meta = read_checkpoint_meta(folder_.checkpoint());
   refuse_other_deck(meta.resolved, scene_.resolved);
   load_checkpoint(folder_.checkpoint(), domain());
+  check_restored(meta);
   moment_.stage = meta.stage;
   moment_.time = meta.time;
   moment_.step = meta.step;
-  for (const auto& report : nlohmann::json::parse(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
+  for (const auto& report : bounded_json(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;
+  former_summary_ = ended_summary();
   options_.say(fmt::format("resumed at step {}", moment_.step));
+}
+
+// What the loop takes for granted of a checkpoint, beyond what its reader knows of.
+void Run::check_restored(const CheckpointMeta& meta) const {
+  const auto refuse_if = [&](bool wrong, const std::string& what) {
+    if (wrong) throw MachineFailure(fmt::format("cannot read checkpoint '{}': {}", folder_.checkpoint().string(), what));
+  };
+  const auto stages = scene_.stages.size();
+  refuse_if(static_cast<std::size_t>(meta.stage) >= stages, fmt::format("stage {} is none of {}", meta.stage, stages));
+  refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(), "its report on the packing is not whole");
+  const auto number = [&](const char* name) { return scene_.domain->scene().column(name).view<const Real>()[0]; };
+  for (const char* name : {"time-step", "stage-start", "stage-step", "looks-owed", "wall-seconds"})
+    refuse_if(!std::isfinite(number(name)), fmt::format("'{}' is no number", name));
+  refuse_if(!(number("time-step") >= 0), "its time step is negative");
+  refuse_if(!(number("stage-step") >= 0 && number("stage-step") <= static_cast<Real>(meta.step)), "its stage begins at no step before it");
+  const auto watchers = static_cast<Real>(scene_.stages[static_cast<std::size_t>(meta.stage)].watchers.size());
+  refuse_if(!(number("looks-owed") >= 0 && number("looks-owed") <= watchers), "it owes looks to watchers that there are not");
+}
+
+// What the run that is resumed says of its end; nothing if it was killed before it could.
+std::optional<std::string> Run::ended_summary() const {
+  constexpr std::uintmax_t longest = std::uintmax_t{1} << 26;
+  std::error_code error;
+  if (!std::filesystem::exists(folder_.summary(), error)) return std::nullopt;
+  std::string text = read_text(folder_.summary(), longest);
+  const auto json = bounded_json(text);
+  const bool ended = json.is_object() && json.contains("status") && json["status"] != "running";
+  return ended ? std::optional(std::move(text)) : std::nullopt;
+}
+
+// A resume that comes to nothing leaves what the run said of its end.
+void Run::leave_as_found() const {
+  try {
+    write_atomically(folder_.summary(), *former_summary_);
+  } catch (const std::exception& failure) {
+    options_.warn(fmt::format("summary.json could not be put back: {}", failure.what()));
+    try {
+      overwrite(folder_.summary(), *former_summary_);  // in the room that it has
+    } catch (const std::exception&) {  // said already
+    }
+  }
 }
 
 bool Run::save_now_and_then(Clock::time_point now) {
@@ -182,6 +240,7 @@ void Run::rescue(const std::string& reason) {
       return false;
     }
   };
+  if (former_summary_) return leave_as_found();
   std::error_code error;
   if (!can_be_saved())
     std::filesystem::remove(part_of(folder_.checkpoint()), error);
@@ -210,6 +269,7 @@ void Run::close(const std::string& status, const std::string& reason) {
     std::string why;
     if (!recorder_->consolidate(domain(), why)) options_.warn("run.h5 still links to its frames: " + why);
   }
+  if (former_summary_ && status != "done") return leave_as_found();
   write_summary();
 }
 
@@ -219,6 +279,8 @@ CurveSink& Run::curve(const CurvePlan& plan) {
   std::vector<CurveColumn> columns{{"time", "s"}};
   for (const auto& [name, unit] : plan.columns) columns.push_back({name, unit});
   const auto file = folder_.curve(plan.name);
+  folder_.claim(file);
+  folder_.claim(std::filesystem::path(file).replace_extension(".json"));
   auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns) : Curve::fresh(file, columns), moment_);
   made->curve.write_sidecar(curve_json(plan));
   return *(curves_[plan.name] = std::move(made));

@@ -70,6 +70,7 @@ std::string summary_json(const Scene& scene, const RunFigures& figures, const Mo
   for (const Break& b : log.breaks) json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] = json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));
+  if (!figures.notes.empty()) json["notes"] = figures.notes;
   return json.dump(2) + "\n";
 }
 

@@ -66,7 +66,7 @@ TEST(Curve, a_resumed_curve_loses_the_rows_after_the_checkpoint_and_goes_on) {
     Curve curve = fresh_curve(scratch / "force.csv");
     for (int step = 0; step <= 500; step += 100) add(curve, step, step, 1);
   }
-  cut_curves(scratch.path(), 250);
+  cut(cuts_after(250, {scratch / "force.csv"}));
   Curve curve = Curve::resume(scratch / "force.csv", time_and_force);
   add(curve, 300, 300, 2);
   EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n0,0,1\n100,100,1\n200,200,1\n300,300,2\n");
@@ -78,7 +78,7 @@ TEST(Curve, a_row_of_the_step_of_the_checkpoint_stays) {
     Curve curve = fresh_curve(scratch / "force.csv");
     for (int step = 0; step <= 200; step += 100) add(curve, step, 0, 0);
   }
-  cut_curves(scratch.path(), 100);
+  cut(cuts_after(100, {scratch / "force.csv"}));
   EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n0,0,0\n100,0,0\n");
 }
 
@@ -88,7 +88,7 @@ TEST(Curve, a_torn_last_row_is_dropped_wherever_it_was_torn) {
   const std::string last = "200,0.5,-12.25\n";
   for (std::size_t cut = 0; cut < last.size(); ++cut) {
     write_text(scratch / "force.csv", whole + last.substr(0, cut));
-    cut_curves(scratch.path(), 1000);
+    beadwork::cut(cuts_after(1000, {scratch / "force.csv"}));
     EXPECT_EQ(text_of(scratch / "force.csv"), whole) << "torn after " << cut;
   }
 }
@@ -152,7 +152,7 @@ TEST(Curve, a_kill_loses_no_row_but_the_one_being_written) {
         },
         1000 + 700 * trial);
     if (!fs::exists(file)) continue;
-    cut_curves(file.parent_path(), 1 << 30);
+    cut(cuts_after(1 << 30, {file}));
     std::ifstream in(file);
     std::string row;
     std::getline(in, row);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -53,7 +54,7 @@ void make_specimen(Domain& domain) {
 }
 
 void record_frames(const fs::path& folder, Domain& domain) {
-  const RunFolder run = RunFolder::fresh(folder, false);
+  RunFolder run = RunFolder::fresh(folder, false);
   RunMeta meta;
   meta.name = "in the record";
   Recorder recorder = Recorder::fresh(run, meta, {}, domain);
@@ -262,6 +263,57 @@ TEST_F(Report, an_interrupted_run_says_why_it_ended) {
   EXPECT_THAT(html, HasSubstr("badge interrupted"));
   EXPECT_THAT(html, HasSubstr("resume with"));
   EXPECT_THAT(html, HasSubstr("There are no curves"));
+}
+
+TEST_F(Report, one_bad_number_is_left_out_and_the_rest_is_drawn) {
+  make_run();
+  write(folder / "curves/force.csv",
+        "step [1],time [s],displacement [m],force [N]\n0,0,0,0\n50,5e-4,1e-4,nan\n60,6e-4,1.2e-4,1e308\n70,7e-4,1.4e-4,1e999\n100,1e-3,2e-4,60\n");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("In curves/force.csv, 3 numbers are infinite, undefined or too large to be drawn"));
+  EXPECT_THAT(html, HasSubstr(">60</text>"));  // the axis is that of what is drawn
+  EXPECT_THAT(html, Not(HasSubstr("10³⁰⁸")));
+  EXPECT_THAT(html, HasSubstr("1 bond broke"));
+}
+
+TEST_F(Report, an_element_without_a_place_does_not_cost_the_picture) {
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e308, 1e30, 50.0}) {
+    fs::remove_all(folder);
+    {
+      Domain domain;
+      make_specimen(domain);
+      domain.elements().column("position").view<Vec3>().set(3, Vec3(0, bad, 0));
+      record_frames(folder, domain);
+    }
+    const std::string html = page();
+    EXPECT_THAT(html, HasSubstr("In the frame of step 100, 1 element has no place or size that can be drawn")) << bad;
+    EXPECT_THAT(html, HasSubstr("<img src=\"data:image/png;base64,iVBORw0KGgo")) << bad;
+    EXPECT_THAT(html, HasSubstr("<b>1 mm</b></i>")) << bad;  // the scale bar of the specimen without it
+  }
+}
+
+TEST_F(Report, what_cannot_be_read_costs_its_own_part_only) {
+  make_run();
+  write(folder / "summary.json", std::string(1000000, '['));
+  write(folder / "curves/force.json", std::string(1000000, '['));
+  fs::remove(folder / "run.log");
+  fs::create_symlink("/etc/passwd", folder / "run.log");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("summary.json is not readable as JSON"));
+  EXPECT_THAT(html, HasSubstr("force.json is not readable as JSON"));
+  EXPECT_THAT(html, HasSubstr("it is a link"));
+  EXPECT_THAT(html, Not(HasSubstr("root:")));
+  EXPECT_THAT(html, HasSubstr("1 bond broke"));
+}
+
+TEST_F(Report, a_page_of_somebody_else_is_left_alone) {
+  make_run();
+  write(folder / "report.html", "mine");
+  EXPECT_THROW(write_report(folder), DeckFailure);
+  EXPECT_EQ(read(folder / "report.html"), "mine");
+  fs::remove(folder / "report.html");
+  write_report(folder);
+  EXPECT_NO_THROW(write_report(folder));
 }
 
 TEST_F(Report, a_folder_that_is_no_run_is_refused) {

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "workbench/report/chart.hpp"
 #include "workbench/report/sections.hpp"
+#include "workbench/report/table.hpp"
 #include "workbench/report/text.hpp"
 
 namespace beadwork::report {
@@ -81,6 +83,7 @@ std::vector<double> reals_in(const Json& object, const char* key) {
   if (found == object.end() || !found->is_array()) return out;
   for (const Json& value : *found)
     if (value.is_number()) out.push_back(value.get<double>());
+  if (std::any_of(out.begin(), out.end(), [](double v) { return !(std::abs(v) <= largest_drawn); })) out.clear();
   return out;
 }
 

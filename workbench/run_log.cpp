@@ -1,0 +1,45 @@
+#include "workbench/run_log.hpp"
+
+#include <fcntl.h>
+#include <spdlog/sinks/base_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+
+#include <mutex>
+
+#include "core/io/file.hpp"
+
+namespace beadwork {
+
+namespace {
+
+class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  FileSink(const std::filesystem::path& file, bool append)
+      : file_(open_regular(file, O_WRONLY | O_CREAT | O_APPEND | (append ? 0 : O_TRUNC), "write")) {}
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    write_all(file_.number(), line.data(), line.size());
+  }
+  void flush_() override {}
+
+  Descriptor file_;
+};
+
+}  // namespace
+
+std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet) {
+  auto sink = std::make_shared<FileSink>(file, append);
+  auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  sink->set_pattern("%Y-%m-%d %H:%M:%S %l %v");
+  console->set_pattern("%v");
+  console->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+  auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{sink, console});
+  log->flush_on(spdlog::level::info);
+  log->set_error_handler([](const std::string&) {});
+  return log;
+}
+
+}  // namespace beadwork

@@ -1,0 +1,15 @@
+#pragma once
+// What a run says, on the terminal and in its run.log. Neither can stop the run: a terminal that is gone and a disk that is full take
+// no words, and that is all.
+
+#include <spdlog/logger.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace beadwork {
+
+/// `quiet`: only warnings and errors on the terminal. MachineFailure if the file cannot be opened.
+std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet);
+
+}  // namespace beadwork
