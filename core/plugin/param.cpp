@@ -87,7 +87,7 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
   return true;
 }
 
-bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Rows& value) {
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, QuantityRows& value) {
   return keep_if(read_rows(a, info.columns, scope, c), value);
 }
 
@@ -117,7 +117,7 @@ std::string words_of(const std::string*, const ParamInfo& info) {
 std::string words_of(const std::vector<std::string>*, const ParamInfo& info) {
   return info.count > 0 ? fmt::format("{} words", info.count) : "words";
 }
-std::string words_of(const Rows*, const ParamInfo& info) { return "rows of " + join(info.columns, " and "); }
+std::string words_of(const QuantityRows*, const ParamInfo& info) { return "rows of " + join(info.columns, " and "); }
 std::string words_of(const Formula*, const ParamInfo& info) { return info.unit.empty() ? "condition" : "formula"; }
 
 std::string text_of_value(const Real& v, const ParamInfo& info) { return si(v, info.unit); }
@@ -133,7 +133,7 @@ std::string text_of_value(const std::vector<std::string>& v, const ParamInfo& in
   for (const std::string& path : v) paths.push_back(absolute(path));
   return text_of_paths(paths);
 }
-std::string text_of_value(const Rows& v, const ParamInfo& info) {
+std::string text_of_value(const QuantityRows& v, const ParamInfo& info) {
   std::vector<std::string> rows;
   for (const auto& row : v) {
     std::vector<std::string> words;
@@ -216,7 +216,7 @@ template class Param<std::int64_t>;
 template class Param<bool>;
 template class Param<std::string>;
 template class Param<std::vector<std::string>>;
-template class Param<Rows>;
+template class Param<QuantityRows>;
 template class Param<Formula>;
 
 }  // namespace beadwork

@@ -52,8 +52,8 @@ struct ParamInfo {
   std::string one_of = {};             ///< of the parameters that name one such group, exactly one is to be given
 };
 
-/// Rows of quantities, such as `0 s 0 m/s, 1 ms 2 m/s`, in SI.
-using Rows = std::vector<std::vector<Real>>;
+/// QuantityRows of quantities, such as `0 s 0 m/s, 1 ms 2 m/s`, in SI.
+using QuantityRows = std::vector<std::vector<Real>>;
 
 /// A formula on quantities, such as `x < 13.5 mm`.
 struct Formula {
@@ -98,7 +98,7 @@ class ParamBase {
   std::string written_;  ///< the value as it stands in the deck
 };
 
-/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string>, Rows or Formula. A text whose role is that of a
+/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string>, QuantityRows or Formula. A text whose role is that of a
 /// file becomes a path that can be opened.
 template <class T>
 class Param final : public ParamBase {
@@ -124,7 +124,7 @@ extern template class Param<std::int64_t>;
 extern template class Param<bool>;
 extern template class Param<std::string>;
 extern template class Param<std::vector<std::string>>;
-extern template class Param<Rows>;
+extern template class Param<QuantityRows>;
 extern template class Param<Formula>;
 
 }  // namespace beadwork

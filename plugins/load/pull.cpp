@@ -15,7 +15,7 @@ class Pull final : public Load {
   Param<std::string> grip{this, {.name = "grip", .doc = "each element alike, or the mean over the set", .fallback = "each", .choices = {"each", "mean"}}};
   Param<Real> velocity{this, {.name = "velocity", .unit = "m/s", .doc = "Velocity that is reached", .one_of = "motion"}};
   Param<Real> rise{this, {.name = "rise", .unit = "s", .range = not_negative, .doc = "Time over which the velocity sets in, smoothly (no jump of acceleration)", .fallback = "0 s", .instead = "table"}};
-  Param<Rows> table{this, {.name = "table", .doc = "Instead of 'velocity': times and velocities with units, joined by commas: \"0 s 0 m/s, 1 ms 2 m/s\"; straight lines between them", .columns = {"s", "m/s"}, .one_of = "motion"}};
+  Param<QuantityRows> table{this, {.name = "table", .doc = "Instead of 'velocity': times and velocities with units, joined by commas: \"0 s 0 m/s, 1 ms 2 m/s\"; straight lines between them", .columns = {"s", "m/s"}, .one_of = "motion"}};
 
   void check(Complaints& complaints) const override {
     if (table.in_deck() && rise.in_deck()) complaints.error(rise.at(), "'rise' belongs to 'velocity', a table has its own course");
