@@ -20,6 +20,7 @@ struct BatchArguments {
   DeckArguments deck;
   std::string out, engine = "local";
   std::vector<std::string> variations;
+  Words words;
   int jobs = 0, threads = 1;
 };
 
@@ -42,6 +43,7 @@ BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& v
                  "--out", run.folder.string(), "--threads", std::to_string(arguments.threads)};
   DeckArguments deck = arguments.deck;
   for (std::size_t k = 0; k < values.size(); ++k) deck.settings.push_back(variations[k].name + "=" + values[k]);
+  run.command.insert(run.command.end(), {"--batch", command_line(arguments.words)});
   for (const std::string& setting : deck.settings) run.command.insert(run.command.end(), {"--set", setting});
   for (const std::string& library : deck.libraries) run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
   // Every deck is checked before the first one runs.
@@ -85,6 +87,7 @@ int batch(const BatchArguments& arguments) {
     return 0;
   }
   run_here(runs, at_once, variations, table);
+  if (worst(runs) == static_cast<int>(ExitCode::interrupted)) std::printf("interrupted; go on with: %s\n", command_line(arguments.words).c_str());
   std::printf("%s\n", table.c_str());
   return worst(runs);
 }
@@ -129,11 +132,12 @@ int worst(const std::vector<BatchRun>& runs) {
   return code;
 }
 
-void add_batch(CLI::App& app, Chosen& chosen) {
+void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
   CLI::App* verb = app.add_subcommand("batch", "Runs a deck with many values of its parameters, and tabulates the results");
   verb->footer("Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
                "What is done is left alone, what was interrupted goes on: give the same command again.");
   auto arguments = std::make_shared<BatchArguments>();
+  arguments->words = words;
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the runs, one folder each, and for batch.csv")->required();
   verb->add_option("--vary", arguments->variations, "Values of a parameter: name=value,value,...; several give all combinations")->allow_extra_args(false);

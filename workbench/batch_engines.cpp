@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/base/failure.hpp"
+#include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "workbench/batch.hpp"
 
@@ -72,17 +73,11 @@ class Pool {
   std::map<pid_t, BatchRun*> running_;
 };
 
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 // One line for each run: a job that Slurm starts once more goes on where it was.
 std::string command_line(const BatchRun& run) {
   std::string command;
-  for (const std::string& word : run.command) command += quoted(word) + " ";
-  return fmt::format("if [ -e {0} ]; then exec {1}--resume; else exec {1}--overwrite; fi\n", quoted((run.folder / "checkpoint.h5").string()),
+  for (const std::string& word : run.command) command += shell_quoted(word) + " ";
+  return fmt::format("if [ -e {0} ]; then exec {1}--resume; else exec {1}--overwrite; fi\n", shell_quoted((run.folder / "checkpoint.h5").string()),
                      command);
 }
 
@@ -131,7 +126,7 @@ void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads
                                        "#SBATCH --cpus-per-task={}\n"
                                        "#SBATCH --requeue\n"
                                        "eval \"$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" {})\"\n",
-                                       count, at_once, threads, quoted(list.string())));
+                                       count, at_once, threads, shell_quoted(list.string())));
   const pid_t child = start({"sbatch", "--output", (folder / "slurm-%a.log").string(), script.string()});
   if (child < 0) throw MachineFailure(fmt::format("there is no sbatch here; submit it where there is one: sbatch {}", script.string()));
   int status = 0;

@@ -35,12 +35,12 @@ Loaded load_scene(const DeckArguments& arguments) {
   if (!loaded.deck) complaints.throw_if_any();
   std::vector<std::filesystem::path> extra;
   if (const Attribute* plugins = loaded.deck->root->find("plugins"))
-    if (const auto words = read_words(*plugins, loaded.deck->scope, complaints))
-      for (const std::string& word : *words) {
-        extra.push_back(std::filesystem::path(arguments.path).parent_path() / word);
-        if (!std::filesystem::exists(extra.back()))
-          throw LibraryFailure(fmt::format("{}: error: no plugin library \"{}\": there is no file {}", plugins->value_at.where(), word,
-                                           extra.back().string()));
+    if (const auto paths = read_paths(*plugins, loaded.deck->scope, complaints))
+      for (const std::string& path : *paths) {
+        extra.emplace_back(path);
+        std::error_code unknown;
+        if (!std::filesystem::exists(extra.back(), unknown))
+          throw LibraryFailure(fmt::format("{}: error: no plugin library: there is no file {}", plugins->value_at.where(), path));
       }
   extra.insert(extra.end(), arguments.libraries.begin(), arguments.libraries.end());
   loaded.catalogue = Catalogue::open(extra);

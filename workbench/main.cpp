@@ -15,13 +15,14 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 2 deck, 3 physics or a plugin's failure, 4 plugin library, 5 interrupted and resumable, 1 anything else");
   std::function<int()> chosen;
-  add_run(app, chosen);
+  const Words words(argv, argv + argc);
+  add_run(app, chosen, words);
   add_check(app, chosen);
   add_report(app, chosen);
   add_describe(app, chosen);
   add_plan(app, chosen);
   add_new(app, chosen);
-  add_batch(app, chosen);
+  add_batch(app, chosen, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

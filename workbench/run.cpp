@@ -17,7 +17,8 @@ namespace {
 
 struct RunArguments {
   DeckArguments deck;
-  std::string out;
+  std::string out, batch;
+  Words words;
   bool overwrite = false, resume = false, quiet = false;
   int threads = 0;
   double checkpoint_minutes = 10;
@@ -34,6 +35,7 @@ int run(const RunArguments& arguments) {
   RunOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   options.resume = arguments.resume;
+  options.commands = commands_of(arguments.words, arguments.batch);
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.interrupt = &interrupted;
   options.say = [&](const std::string& line) {
@@ -70,15 +72,17 @@ int run(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Chosen& chosen) {
+void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   CLI::App* verb = app.add_subcommand("run", "Runs a deck");
   verb->footer("Example: beadwork run xml-cases/dcb/quick.xml --out out/dcb --threads 2");
   auto arguments = std::make_shared<RunArguments>();
+  arguments->words = words;
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the results")->required();
   CLI::Option* overwrite = verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
+  verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
   verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });

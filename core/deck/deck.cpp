@@ -98,8 +98,7 @@ class DeckReader {
   void splice(const Node& include, Node& into) {
     if (!has_just(include, {"file"})) return;
     const Attribute& file = *include.find("file");
-    const auto path =
-        (std::filesystem::path(chain_.back().path).parent_path() / file.value).lexically_normal().string();
+    const std::string path = path_beside(file.value_at, file.value);
     if (!may_include(path, file.value_at)) return;
     const auto root = read(path, file.value_at);
     if (!root) return;
@@ -150,6 +149,11 @@ std::string hash_of(const Deck& deck, const std::vector<Override>& overrides) {
 
 }  // namespace
 
+std::string path_beside(const Location& at, const std::string& path) {
+  const std::filesystem::path file = at.source ? at.source->path : "";
+  return (file.parent_path() / path).lexically_normal().string();
+}
+
 const Attribute* Node::find(std::string_view name) const {
   for (const Attribute& each : attributes)
     if (each.name == name) return &each;
@@ -168,6 +172,7 @@ std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Overr
   deck->path = path;
   deck->root = DeckReader(*deck, complaints).read(path, {});
   if (!deck->root) return nullptr;
+  deck->overrides = overrides;
   apply(overrides, *deck, complaints);
   deck->sha256 = hash_of(*deck, overrides);
   return deck;

@@ -29,6 +29,8 @@ void write_meta(hid_t place, const RunMeta& meta) {
   h5::write_text(group.id(), "deck", meta.deck);
   h5::write_text(group.id(), "resolved", meta.resolved);
   h5::write_text(group.id(), "deck_sha256", meta.deck_sha256);
+  h5::write_texts(group.id(), "overrides", meta.overrides);
+  h5::write_texts(group.id(), "files", meta.files);
   h5::write_text(group.id(), "version", meta.version);
   h5::write_texts(group.id(), "plugins", meta.plugins);
   h5::write_text(group.id(), "packing", meta.packing);

@@ -20,6 +20,8 @@ struct RunMeta {
   std::string deck;      ///< text as it was read
   std::string resolved;  ///< text with every value in SI
   std::string deck_sha256;
+  std::vector<std::string> overrides;  ///< "name=value" of the command line
+  std::vector<std::string> files;      ///< "sha256  path" of those that the deck names for data
   std::string version;
   std::vector<std::string> plugins;  ///< "section/tag version path-of-library"
   int threads = 1;

@@ -149,7 +149,7 @@ bool Assembly::derive(const std::string& name, const Plugin& reader) {
       scene_.derived_for[there].insert(readers.begin(), readers.end());
       return true;
     }
-  std::unique_ptr<Plugin> plugin = catalogue_.make(Kind::derive, name);
+  std::unique_ptr<Plugin> plugin = make(Kind::derive, name);
   Node silent;
   silent.tag = name;
   silent.at = deck_.root->at;

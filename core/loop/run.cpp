@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/failure.hpp"
+#include "core/base/sha256.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/run_curve.hpp"
 
@@ -15,6 +16,7 @@ namespace beadwork {
 Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options)
     : scene_(scene), catalogue_(catalogue), folder_(folder), options_(std::move(options)), began_(Clock::now()), saved_(began_), shown_(began_) {
   omp_set_num_threads(options_.threads);
+  for (const std::string& path : scene_.files()) files_[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
   gather_constraints();
   add_state_columns();
   bind_all();
@@ -115,8 +117,7 @@ void Run::enter(Stage& stage, bool resumed) {
 bool Run::over() {
   if (options_.interrupt && *options_.interrupt) {
     complete();
-    throw Interrupted(fmt::format("interrupted at step {}; go on with: beadwork run {} --out {} --resume", moment_.step,
-                                  scene_.deck_path, folder_.root().string()));
+    throw Interrupted(fmt::format("interrupted at step {}; go on with: {}", moment_.step, options_.commands.go_on));
   }
   raise(peaks_[stage_number()], moment_, constraints());
   return stage().until->reached(moment_, constraints(), peaks_[stage_number()]);

@@ -11,13 +11,21 @@
 #include "core/io/curve.hpp"
 #include "core/io/recorder.hpp"
 #include "core/io/run_folder.hpp"
+#include "core/loop/same_deck.hpp"
 #include "core/loop/scene.hpp"
 
 namespace beadwork {
 
+/// What the user can paste into a shell.
+struct Commands {
+  std::string go_on;        ///< from the newest checkpoint
+  std::string begin_again;  ///< over what has been written
+};
+
 struct RunOptions {
   int threads = 1;
   bool resume = false;
+  Commands commands;
   Real checkpoint_seconds = 600;                ///< wall time between checkpoints
   Real first_checkpoint_seconds = 60;           ///< until the first one, where that is less
   const std::atomic<int>* interrupt = nullptr;  ///< not zero: write a checkpoint and stop
@@ -150,6 +158,7 @@ class Run final : private Workings, private Sight {
   RunFolder& folder_;
   RunOptions options_;
   RunFigures figures_;
+  FileSums files_;  ///< that the deck names for data
   Moment moment_;
   std::vector<std::vector<Constraint>> constraints_;  ///< by stage
   std::vector<std::vector<Peak>> peaks_;              ///< by stage

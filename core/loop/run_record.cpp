@@ -20,6 +20,8 @@ RunMeta Run::meta() const {
   meta.deck = scene_.deck_text;
   meta.resolved = scene_.resolved;
   meta.deck_sha256 = scene_.deck_sha256;
+  for (const Override& each : scene_.overrides) meta.overrides.push_back(each.name + "=" + each.value);
+  for (const auto& [path, sum] : files_) meta.files.push_back(sum + "  " + path);
   meta.version = version;
   for (const Library& library : catalogue_.libraries())
     for (const PluginEntry& entry : library.entries)
@@ -117,6 +119,7 @@ void Run::save() {
   meta.step = moment_.step;
   meta.seed = scene_.seed;
   meta.texts["packing"] = "[" + join(figures_.packing_reports, ",") + "]";
+  meta.texts["files"] = nlohmann::json(files_).dump();
   save_checkpoint(folder_.checkpoint(), domain(), meta);
   saved_ = Clock::now();
   has_checkpoint_ = true;
@@ -125,7 +128,7 @@ void Run::save() {
 
 void Run::load() {
   const CheckpointMeta meta = read_checkpoint_meta(folder_.checkpoint());
-  refuse_other_deck(meta.resolved, scene_.resolved);
+  refuse_other_deck({meta.resolved, nlohmann::json::parse(meta.texts.contains("files") ? meta.texts.at("files") : "{}")}, scene_.resolved_tree, files_);
   load_checkpoint(folder_.checkpoint(), domain());
   check_restored(meta);
   moment_.stage = meta.stage;
@@ -218,7 +221,7 @@ void Run::write_summary() {
   write_atomically(folder_.summary(), summary());
 }
 
-std::string Run::summary() const { return summary_json(scene_, figures_, moment_, options_.threads, *this); }
+std::string Run::summary() const { return summary_json(scene_, files_, figures_, moment_, options_.threads, *this); }
 
 // What is read from bonds is not saved: a watcher of it that is owed a look could not have it later.
 bool Run::can_be_saved() const {
@@ -250,8 +253,7 @@ void Run::rescue(const std::string& reason) {
     figures_.status = "failed";
     figures_.exit_reason = reason;
     if (has_checkpoint_)
-      figures_.exit_reason += fmt::format("; the newest checkpoint is of step {}, go on with: beadwork run {} --out {} --resume",
-                                          saved_step_, scene_.deck_path, folder_.root().string());
+      figures_.exit_reason += fmt::format("; the newest checkpoint is of step {}, go on with: {}", saved_step_, options_.commands.go_on);
   }
   if (!attempt("summary.json could not be replaced", [&] { write_summary(); }))
     attempt("summary.json still says that the run goes on", [&] { overwrite(folder_.summary(), summary()); });

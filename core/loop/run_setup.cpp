@@ -18,7 +18,6 @@ void Run::fill() {
   job.say = options_.say;
   job.warn = options_.warn;
   job.report = [&](const std::string& json) { figures_.packing_reports.push_back(json); };
-  job.resolve_path = [&](const std::string& path) { return scene_.path_of(path); };
   job.in_progress = &in_progress;
   job.pause = [&] { pause(); };
   job.progress = options_.progress;
@@ -42,9 +41,9 @@ void Run::fill() {
 // Before the first step there is nothing to save.
 void Run::pause() const {
   if (!options_.interrupt || !*options_.interrupt) return;
-  throw Interrupted(fmt::format("interrupted before the first step; {} with: beadwork run {} --out {} {}",
-                                options_.resume ? "go on" : "nothing is saved yet, begin again", scene_.deck_path, folder_.root().string(),
-                                options_.resume ? "--resume" : "--overwrite"));
+  throw Interrupted(options_.resume
+                        ? "interrupted before the first step; go on with: " + options_.commands.go_on
+                        : "interrupted before the first step; nothing is saved yet, begin again with: " + options_.commands.begin_again);
 }
 
 // What the loop itself has to remember, as columns of the scene.

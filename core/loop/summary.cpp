@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 
-#include "core/base/failure.hpp"
-#include "core/base/text.hpp"
 #include "core/version.hpp"
 
 namespace beadwork {
@@ -41,13 +38,17 @@ class Terms final : public EnergySink {
 
 }  // namespace
 
-std::string summary_json(const Scene& scene, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
+std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
   const Domain& domain = sight.domain();
   Json json;
   json["name"] = scene.name;
   json["status"] = figures.status;
   json["exit_reason"] = figures.exit_reason;
   json["deck_sha256"] = scene.deck_sha256;
+  json["overrides"] = Json::object();
+  for (const Override& each : scene.overrides) json["overrides"][each.name] = each.value;
+  json["files"] = Json::object();
+  for (const auto& [path, sum] : files) json["files"][path] = sum;
   json["version"] = version;
   json["threads"] = threads;
   json["seed"] = scene.seed;
@@ -82,22 +83,6 @@ std::string curve_json(const CurvePlan& plan) {
   if (!plan.kind.empty()) json["kind"] = plan.kind;
   if (!plan.references.empty()) json["references"] = plan.references;
   return json.dump(2) + "\n";
-}
-
-void refuse_other_deck(const std::string& saved, const std::string& now) {
-  static const std::regex free(R"re(( (until|every)="[^"]*")|(<scene name="[^"]*"))re");
-  const auto lines = [](const std::string& text) {
-    std::vector<std::string> kept;
-    for (const std::string& line : split(text, '\n')) kept.push_back(std::regex_replace(line, free, ""));
-    return kept;
-  };
-  const auto odd = odd_lines(lines(saved), lines(now));
-  if (odd.empty()) return;
-  std::string differences;
-  const auto before = split(saved, '\n'), after = split(now, '\n');
-  for (const OddLine& line : odd)
-    differences += line.in_second ? "\n  deck:       " + std::string(trim(after[line.number])) : "\n  checkpoint: " + std::string(trim(before[line.number]));
-  throw DeckFailure("error: the deck is not the one that began this run; only 'until', 'every' and threads may differ:" + differences);
 }
 
 }  // namespace beadwork

@@ -3,6 +3,7 @@
 
 #include <any>
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -30,8 +31,7 @@ struct FillJob {
   std::uint64_t seed = 0;
   std::function<void(const std::string&)> say;  ///< a line for the log
   std::function<void(const std::string&)> warn;
-  std::function<void(const std::string& json)> report;          ///< a packing report, a JSON object
-  std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
+  std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
   /// To be called now and then in long work: throws Interrupted if the user wants to stop.
   std::function<void()> pause = [] {};
   /// To be called now and then in long work: how far it has come.
@@ -125,6 +125,7 @@ struct Constraint {
   Grip grip = Grip::each;
   bool driven = false;                           ///< it moves (pull), as against holding still
   std::function<PrescribedMotion(Real)> motion;  ///< displacement, velocity, acceleration by the time since it began
+  Real reach = std::numeric_limits<Real>::infinity();  ///< farthest that it ever gets from where it has been [m]
   Real began = 0;                                ///< start of the first stage in which the load stands [s]
   Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
   Real work = 0;                                 ///< of these forces so far [J]

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/base/text.hpp"
 #include "core/deck/read.hpp"
@@ -16,11 +17,19 @@ std::string in_unit(Real value, const std::string& unit) {
   return unit == "1" ? format_number(value) : format_quantity(value, unit);
 }
 
+// In the unit that the parameter is declared with (N.m, where J would be as long), as far as that is one of SI.
+std::string si_unit(const std::string& unit) {
+  const auto found = find_unit(unit);
+  if (unit == "1" || found->scale == 1) return unit;
+  return unit == "deg" || unit == "degree" ? "rad" : found->dimension.name();
+}
+
 std::string si(Real value, const std::string& unit) {
-  if (unit == "1") return format_number(value);
-  const std::string name = find_unit(unit)->dimension.name();
+  const std::string name = si_unit(unit);
   return name == "1" ? format_number(value) : format_number(value) + " " + name;
 }
+
+std::string absolute(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
 bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, Complaints& complaints) {
   if (info.range.holds(value)) return true;
@@ -57,12 +66,14 @@ bool take_value(const ParamInfo&, const Attribute& a, const Scope& scope, Compla
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, std::string& value) {
   if (!info.choices.empty()) return keep_if(read_choice(a, info.choices, scope, c), value);
-  return keep_if(read_text(a, scope, c), value);
+  if (!keep_if(read_text(a, scope, c), value)) return false;
+  if (info.role == Role::file) value = path_beside(a.value_at, value);
+  return true;
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c,
                 std::vector<std::string>& value) {
-  if (!keep_if(read_words(a, scope, c), value)) return false;
+  if (!keep_if(info.role == Role::file ? read_paths(a, scope, c) : read_words(a, scope, c), value)) return false;
   if (info.count > 0 && static_cast<int>(value.size()) != info.count) {
     c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), a.value));
     return false;
@@ -74,6 +85,10 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
       return false;
     }
   return true;
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, QuantityRows& value) {
+  return keep_if(read_rows(a, info.columns, scope, c), value);
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
@@ -102,6 +117,7 @@ std::string words_of(const std::string*, const ParamInfo& info) {
 std::string words_of(const std::vector<std::string>*, const ParamInfo& info) {
   return info.count > 0 ? fmt::format("{} words", info.count) : "words";
 }
+std::string words_of(const QuantityRows*, const ParamInfo& info) { return "rows of " + join(info.columns, " and "); }
 std::string words_of(const Formula*, const ParamInfo& info) { return info.unit.empty() ? "condition" : "formula"; }
 
 std::string text_of_value(const Real& v, const ParamInfo& info) { return si(v, info.unit); }
@@ -110,9 +126,23 @@ std::string text_of_value(const Vec3& v, const ParamInfo& info) {
 }
 std::string text_of_value(const std::int64_t& v, const ParamInfo&) { return std::to_string(v); }
 std::string text_of_value(const bool& v, const ParamInfo&) { return v ? "yes" : "no"; }
-std::string text_of_value(const std::string& v, const ParamInfo&) { return v; }
-std::string text_of_value(const std::vector<std::string>& v, const ParamInfo&) { return join(v, " "); }
-std::string text_of_value(const Formula& v, const ParamInfo&) { return v.text; }
+std::string text_of_value(const std::string& v, const ParamInfo& info) { return info.role == Role::file ? absolute(v) : v; }
+std::string text_of_value(const std::vector<std::string>& v, const ParamInfo& info) {
+  if (info.role != Role::file) return join(v, " ");
+  std::vector<std::string> paths;
+  for (const std::string& path : v) paths.push_back(absolute(path));
+  return text_of_paths(paths);
+}
+std::string text_of_value(const QuantityRows& v, const ParamInfo& info) {
+  std::vector<std::string> rows;
+  for (const auto& row : v) {
+    std::vector<std::string> words;
+    for (std::size_t k = 0; k < row.size(); ++k) words.push_back(si(row[k], info.columns[k]));
+    rows.push_back(join(words, " "));
+  }
+  return join(rows, ", ");
+}
+std::string text_of_value(const Formula& v, const ParamInfo&) { return v.expression->text(); }
 
 }  // namespace
 
@@ -186,6 +216,7 @@ template class Param<std::int64_t>;
 template class Param<bool>;
 template class Param<std::string>;
 template class Param<std::vector<std::string>>;
+template class Param<QuantityRows>;
 template class Param<Formula>;
 
 }  // namespace beadwork

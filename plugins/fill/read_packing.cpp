@@ -11,7 +11,7 @@ namespace beadwork {
 class ReadPacking final : public ElementMaker {
  public:
   static constexpr const char* about = "Elements from a stored packing: the first frame of a run.h5, or a text with lines x y z r";
-  Param<std::string> file{this, {.name = "file", .doc = "The file, from the deck's folder: .h5, or a text", .role = Role::file}};
+  Param<std::string> file{this, {.name = "file", .doc = "The file, .h5 or a text: its path from the folder of the file that names it", .role = Role::file}};
   Param<std::string> unit{this, {.name = "unit", .doc = "Unit of the lengths in a text, m where absent; a run.h5 states its own", .optional = true}};
 
   void check(Complaints& complaints) const override {
@@ -24,7 +24,7 @@ class ReadPacking final : public ElementMaker {
   }
 
   void fill(Domain& domain, const FillJob& job) override {
-    const StoredPacking packing = stored(job.resolve_path(*file));
+    const StoredPacking packing = stored(*file);
     add_spheres(domain, packing.position, packing.radius);
     job.say(fmt::format("{}: {} elements from {}", tag(), packing.position.size(), *file));
   }

@@ -46,6 +46,9 @@ kill -TERM $batch
 got=0
 wait $batch || got=$?
 [ $got = 5 ] || fail "exit code $got, not 5"
+told="$beadwork batch $deck --out $work/long --vary 'E=50 GPa,100 GPa' --jobs 2 --set n=1000000000"
+grep -qF "go on with: $told" "$work/output" || fail "the batch does not say how to go on"
+grep -qF "go on with: $told" "$work/long/E=50-GPa/run.log" || fail "the run does not say how its batch goes on: $(cat "$work/long/E=50-GPa/run.log")"
 [ "$(rows ',interrupted,' long)" = 2 ] || fail "not interrupted: $(cat "$work/long/batch.csv")"
 expect 0 "$beadwork" batch "$deck" --out "$work/long" --vary 'E=50 GPa,100 GPa' --set n=1
 [ "$(rows ',done,' long)" = 2 ] || fail "not done: $(cat "$work/long/batch.csv")"

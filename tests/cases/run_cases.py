@@ -6,6 +6,7 @@ same_bits   one thread, two threads, a run split by a restart, and narrower inst
             checkpoint and curve; a look at each step: equal bits in the checkpoint
 mixed       as same_bits, with the forces of beams in single precision
 killed      kill -9 in the middle: run.h5 opens, and the checkpoint goes on to the same bits
+resolved    resolved.xml alone, run from another folder: equal bits in every curve, frame and checkpoint
 terminated  SIGTERM: exit code 5, a checkpoint, and --resume goes on to the same bits
 """
 import os
@@ -20,6 +21,9 @@ from pathlib import Path
 
 import h5py
 import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+import same_run  # noqa: E402
 
 # Steps to run, and parameters by which those steps reach the damage that the case is about. A case that is not listed
 # runs STEPS steps of its deck as it is.
@@ -188,10 +192,20 @@ def terminated(case):
     return wrong + goes_on(case)
 
 
+def resolved(case):
+    case.run("one", case.steps)
+    with tempfile.TemporaryDirectory() as elsewhere:
+        command = [case.beadwork, "run", "-q", str(case.folder / "one/resolved.xml"), "--out", str(case.folder / "two"), "--threads", "1"]
+        done = subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        return [f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}"]
+    return same_run.differences(case.folder / "one", case.folder / "two")
+
+
 def main():
     os.environ.pop("OMP_NUM_THREADS", None)
     os.environ["OMP_WAIT_POLICY"] = "passive"  # two threads may have to share a core here
-    questions = {"same_bits": same_bits, "mixed": mixed, "killed": killed, "terminated": terminated}
+    questions = {"same_bits": same_bits, "mixed": mixed, "killed": killed, "resolved": resolved, "terminated": terminated}
     with tempfile.TemporaryDirectory() as folder:
         case = Case(sys.argv[1], Path(sys.argv[2]).resolve(), Path(folder))
         differences = questions[sys.argv[3]](case)

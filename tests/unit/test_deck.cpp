@@ -504,6 +504,11 @@ TEST(ResolvedDeck, is_canonical_xml_that_reads_back) {
   const auto deck = read_deck(path, {}, complaints);
   ASSERT_TRUE(deck) << complaints.text();
   EXPECT_EQ(deck->root->find("name")->value, "a \"b\" <c> & d\n\te");
+  const auto tree = read_resolved_xml(xml);
+  ASSERT_TRUE(tree);
+  EXPECT_EQ(resolved_xml(*tree), xml);
+  EXPECT_EQ(tree->children[0].children[0].find("x")->at.where(), "resolved.xml:4:11");
+  EXPECT_FALSE(read_resolved_xml("<scene"));
 }
 
 }  // namespace
