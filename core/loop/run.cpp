@@ -9,6 +9,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/sha256.hpp"
 #include "core/loop/blame.hpp"
+#include "core/loop/handed_over.hpp"
 #include "core/loop/run_curve.hpp"
 
 namespace beadwork {
@@ -191,6 +192,7 @@ void Run::log_events() {
     BreakLog& log = domain().breaks();
     const auto x = domain().elements().column("position").view<Vec3>();
     for (const BondEvent& event : law->events()) {
+      check_rows({&event.row, 1}, table->size(), "bonds that changed", *law, moment_);
       const Vec3 place = 0.5 * (x[table->first()[event.row]] + x[table->second()[event.row]]);
       log.breaks.push_back({moment_.time, moment_.step, static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin()),
                             table->id()[event.row], log.mode(event.mode), place, event.energy});
@@ -206,6 +208,7 @@ void Run::break_bonds() {
     if (moment_.step % *failure->every != 0) continue;
     derive_for(*failure);
     auto rows = blaming(*failure, moment_, [&] { return failure->judge(domain(), *domain().find_family(failure->family())); });
+    check_rows(rows, domain().find_family(failure->family())->size(), "bonds that break", *failure, moment_);
     if (!rows.empty()) verdicts.emplace_back(failure, std::move(rows));
   }
   if (verdicts.empty()) return;

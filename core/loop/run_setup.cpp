@@ -7,6 +7,7 @@
 #include "core/base/text.hpp"
 #include "core/domain/order.hpp"
 #include "core/loop/connect.hpp"
+#include "core/loop/handed_over.hpp"
 #include "core/loop/run.hpp"
 
 namespace beadwork {
@@ -23,7 +24,9 @@ void Run::fill() {
   job.progress = options_.progress;
   for (Filler* filler : scene_.fillers) {
     pause();
-    if (!filler->after_filling()) filler->fill(domain(), job);
+    if (filler->after_filling()) continue;
+    filler->fill(domain(), job);
+    check_elements(*filler, domain());
   }
   for (Filler* filler : scene_.fillers) filler->conclude(job);
   if (domain().size() == 0)
@@ -34,8 +37,11 @@ void Run::fill() {
   for (Index row = 0; row < domain().size(); ++row) position[static_cast<std::size_t>(row)] = x[row];
   domain().reorder(hilbert_order(position));
   bind_all();
-  for (Filler* filler : scene_.fillers)
-    if (filler->after_filling()) filler->fill(domain(), job);
+  for (Filler* filler : scene_.fillers) {
+    if (!filler->after_filling()) continue;
+    filler->fill(domain(), job);
+    check_elements(*filler, domain());
+  }
 }
 
 // Before the first step there is nothing to save.
@@ -82,7 +88,8 @@ void Run::create_families(Stage& stage) {
     if (scene_.first_stage(*law) != stage_number()) continue;
     if (moment_.step == 0) pause();
     BondTable& table = *domain().find_family(law->family());
-    auto pairs = pairs_to_bond(*law, domain());
+    const Pause pausing = [this] { if (moment_.step == 0) pause(); };
+    auto pairs = pairs_to_bond(*law, domain(), pausing, options_.warn);
     require_room(*law, pairs.size());
     table.create(std::move(pairs), next_id);
     next_id += table.size();
@@ -113,6 +120,8 @@ void Run::begin_constraints() {
 void Run::check_constraints(const Stage& stage, std::span<const Constraint> constraints) const {
   std::map<std::pair<Index, int>, const Constraint*> taken;
   for (const Constraint& c : constraints) {
+    const auto by = std::find_if(stage.loads.begin(), stage.loads.end(), [&](const Load* l) { return l->id() == c.by; });
+    check_constraint(c, domain(), by != stage.loads.end() ? static_cast<const Plugin&>(**by) : stage.mover());
     for (const Index row : domain().set(c.set)) {
       const auto [there, fresh] = taken.try_emplace({row, c.axis}, &c);
       if (fresh) continue;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/pause.hpp"
+
 namespace beadwork::packing {
 
 /// Below so many elements a second thread saves less than it costs to wait for it.
@@ -16,6 +18,18 @@ template <class Body>
 void for_each(std::size_t count, const Body& body) {
 #pragma omp parallel for schedule(static) if (count > worth_sharing)
   for (std::size_t k = 0; k < count; ++k) body(k);
+}
+
+/// The same where each takes long: there is a pause every so many.
+template <class Body>
+void for_each(std::size_t count, const Body& body, const Pause& pause) {
+  constexpr std::size_t stretch = 8192;
+  for (std::size_t begin = 0; begin < count; begin += stretch) {
+    pause();
+    const std::size_t end = std::min(count, begin + stretch);
+#pragma omp parallel for schedule(static) if (count > worth_sharing)
+    for (std::size_t k = begin; k < end; ++k) body(k);
+  }
 }
 
 /// Calls `part(begin, end, sum)` on each block of the range, each with its own sum, and adds the sums in

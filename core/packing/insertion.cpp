@@ -37,7 +37,9 @@ InsertionGrid::InsertionGrid(const Region& region, Real largest_radius) : reach_
   const Vec3 extent = box.high - box.low;
   low_ = box.low;
   edge_ = std::max(2 * largest_radius, std::cbrt(extent.prod() / most_cells));
-  for (int a = 0; a < 3; ++a) cells_[a] = std::max(1, int(std::ceil(extent[a] / edge_)));
+  const auto across = [&] { return (extent / edge_).array().ceil().max(1); };
+  while (!(across().prod() <= 2 * most_cells)) edge_ *= 1.25;  // a thin or long region has cells for its walls alone
+  cells_ = across().cast<int>().matrix();
   const std::size_t count = std::size_t(cells_[0]) * std::size_t(cells_[1]) * std::size_t(cells_[2]);
   first_.assign(count, -1);
 }

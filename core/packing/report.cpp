@@ -17,7 +17,6 @@ namespace beadwork::packing {
 namespace {
 
 constexpr Real touching_gap = 1e-6;
-constexpr Real bulk_margin = 3;    // mean radii
 constexpr int rigid_contacts = 4;  // fewer cannot hold a sphere in three dimensions
 
 /// gap / (R1 + R2) of a pair.
@@ -31,19 +30,6 @@ std::vector<Pair> contacts_within(const Crowd& crowd, const std::vector<Pair>& n
   for (const Pair& p : near)
     if (share(crowd, p) <= tolerance) contacts.push_back(p);
   return contacts;
-}
-
-std::vector<char> bulk_of(const Crowd& crowd) {
-  std::vector<char> bulk(crowd.moving);
-  for (std::size_t i = 0; i < crowd.moving; ++i)
-    bulk[i] = crowd.walls.distance(crowd.ball[i].x) > bulk_margin;
-  if (crowd.ball.size() == crowd.moving) return bulk;
-  for (const Pair& p : near_pairs(crowd, bulk_margin))
-    if (std::size_t(p.j) >= crowd.moving) {
-      const Ball &a = crowd.ball[std::size_t(p.i)], &b = crowd.ball[std::size_t(p.j)];
-      if ((b.x - a.x).norm() - b.r <= bulk_margin) bulk[std::size_t(p.i)] = 0;
-    }
-  return bulk;
 }
 
 /// Elements that are not held: fewer than four contacts with walls and with elements that are held
@@ -171,6 +157,7 @@ Real density_in_bulk(const Packing& packing, Real margin) {
   InsertionGrid elements(packing.region, *std::max_element(packing.radius.begin(), packing.radius.end()));
   for (std::size_t i = 0; i < packing.radius.size(); ++i)
     elements.add({packing.position[i], packing.radius[i]});
+  packing.pause();
   InsertionGrid obstacles(packing.region, std::max(margin, inradius(packing.region) / 20));
   for (std::size_t k = 0; k < packing.around.radius.size(); ++k)
     obstacles.add_obstacle({packing.around.position[k], packing.around.radius[k]});

@@ -79,6 +79,12 @@ class BondLaw : public Plugin {
                    .range = not_negative,
                    .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
                    .fallback = "1e-3"}};
+  Param<std::string> neighbours{this,
+                                {.name = "neighbours",
+                                 .doc = "Which elements within 'gap' are bonded: all, or the next only, none over a third that lies between the two: "
+                                        "for a row of elements that overlap",
+                                 .fallback = "all",
+                                 .choices = {"all", "next"}}};
 
   std::string family() const override { return *name; }
 
