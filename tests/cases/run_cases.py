@@ -30,6 +30,7 @@ import same_run  # noqa: E402
 STEPS = 600
 HURRY = {
     "dcb": (600, ["v=200 m/s", "a0=1 mm", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
+    "glued-block": (600, ["v=20 m/s", "count=800"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
