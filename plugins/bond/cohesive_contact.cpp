@@ -85,7 +85,7 @@ struct CohesiveSliding : CohesiveColumns {
   }
 
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const TurningEnds<T>& ends) const {
     const Openings<T> before = history(at);
     const auto now = cohesive_wrench<modes, T>(as<T>(laws), rest(at), arms(at), ends.apart, ends.q1, ends.q2, before);
     if constexpr (pass.settle) {
@@ -108,7 +108,7 @@ struct CohesiveSliding : CohesiveColumns {
   }
 
   template <class At, class T>
-  void tell(const At& at, const Ends<T>& ends, const Openings<T>& next) const {
+  void tell(const At& at, const TurningEnds<T>& ends, const Openings<T>& next) const {
     const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
     if (opening) at.store(opening, state.opening.normal);
     if (sliding) at.store(sliding, state.opening.shear);
@@ -121,7 +121,7 @@ struct CohesiveSliding : CohesiveColumns {
   }
 
   template <class At, class T>
-  T stored(const At& at, const Ends<T>& ends) const {
+  T stored(const At& at, const TurningEnds<T>& ends) const {
     const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
     return cohesive_stored<modes, T>(as<T>(laws), rest(at), state.opening, history(at));
   }

@@ -5,7 +5,8 @@ import re
 import sys
 from pathlib import Path
 
-CODE = ["tools/plugin-template/bond/rope.cpp", "tools/plugin-template/CMakeLists.txt", "tests/architecture/installed_package/tripwire.cpp"]
+CODE = ["tools/plugin-template/bond/rope.cpp", "tools/plugin-template/CMakeLists.txt", "tests/architecture/installed_package/tripwire.cpp",
+        "tests/laws/damped_spring.cpp"]
 
 
 def main():
