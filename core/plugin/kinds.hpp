@@ -108,6 +108,13 @@ class BondLaw : public Plugin {
   virtual Real dissipated_energy(const Domain&, const BondTable&) const { return 0; }
   /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2). Asked by several threads at once.
   virtual Matrix12 tangent(const Domain& domain, const BondTable& table, Index row) const = 0;
+  /// True if the force depends on velocities, and on spins where it turns.
+  virtual bool moves() const { return false; }
+  /// How the force of such a law opposes velocities, beside the tangent: loads = -C rates, rates (v1, w1, v2, w2), symmetric. The largest
+  /// that it can become: a time step must be stable for it. Asked by several threads at once.
+  virtual Matrix12 damping(const Domain&, const BondTable&, Index) const { return Matrix12::Zero(); }
+  /// Power that such forces take at the present velocities, over the live bonds [W].
+  virtual Real power(const Domain&, const BondTable&) const { return 0; }
   /// True if the tangent has rotational parts.
   virtual bool turns() const { return true; }
   /// True if forces can be found in single precision.
@@ -167,9 +174,6 @@ class Workings {
   virtual void evaluate(bool settle) = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
-  /// As in Sight: the energy balance as it stands.
-  virtual void energies(EnergySink& sink) const = 0;
-  virtual Real initial_energy() const = 0;
   virtual void say(const std::string& line) = 0;
   virtual void warn(const std::string& line) = 0;
 };
@@ -197,6 +201,11 @@ class Mover : public Plugin {
   virtual void complete(Workings&) {}
   /// Whether bonds act in single precision, where their law can.
   virtual bool in_single() const { return false; }
+  /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not the energy itself but
+  /// the energy less this [J].
+  virtual Real swing() const { return 0; }
+  /// What is probably wrong where the balance gains energy that nobody brought.
+  virtual std::string suspect() const { return "a law's force is probably not the slope of its stored energy"; }
   /// For `plan`: the time step [s] and what limits it.
   virtual Real time_step() const = 0;
   virtual std::string limited_by() const { return ""; }

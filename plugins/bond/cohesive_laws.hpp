@@ -72,7 +72,7 @@ struct CohesiveFaces : CohesiveColumns {
   Modes modes;
 
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const TurningEnds<T>& ends) const {
     const auto here = faces(at, ends);
     const T size = at(area);
     const auto before = recall(at);
@@ -92,7 +92,7 @@ struct CohesiveFaces : CohesiveColumns {
   }
 
   template <class At, class T>
-  T stored(const At& at, const Ends<T>& ends) const {
+  T stored(const At& at, const TurningEnds<T>& ends) const {
     const auto here = faces(at, ends);
     const T size = at(area);
     return held_energy(modes, size, here.opening, cohesive_state<Modes>(modes, here, size, recall(at)).share);
@@ -118,7 +118,7 @@ struct CohesiveFaces : CohesiveColumns {
 
  private:
   template <class At, class T>
-  [[gnu::always_inline]] auto faces(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] auto faces(const At& at, const TurningEnds<T>& ends) const {
     const ContactArms<T> arms{at(arm1), at(arm2)};
     if constexpr (carried)
       return carried_faces<T>(arms, {at(normal1), at(normal2)}, ends.apart, ends.q1, ends.q2);

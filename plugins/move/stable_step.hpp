@@ -19,7 +19,7 @@ struct StepLimit {
   std::string by = "no bond limits it";
 };
 
-/// `more(table, row, apart)` is added to the stiffness of each bond.
+/// `more(law, table, row, apart)` is added to the stiffness of each bond.
 template <class More>
 StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
   const Domain& domain = w.domain();
@@ -55,7 +55,7 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
     const auto& [law, table, chunk, begin] = part;
     for (Index b = chunk.begin; b < chunk.live_end; ++b) {
       const Index i = table->first()[b], j = table->second()[b];
-      network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*table, b, Vec3(position[j] - position[i])));
+      network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
     }
   };
   std::vector<std::exception_ptr> failed(parts.size());  // nothing may be thrown across the end of a parallel region

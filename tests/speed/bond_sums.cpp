@@ -42,7 +42,7 @@ void chunks(benchmark::State& state) {
 struct NoLaw {
   static constexpr bool turns = true;
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At&, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At&, const TurningEnds<T>& ends) const {
     return {copy(ends.apart), copy(ends.q1.v), copy(ends.q2.v)};
   }
 };
