@@ -142,7 +142,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
 
   Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
     const Index i = table.first()[row], j = table.second()[row];
-    Ends<Real> ends;
+    TurningEnds<Real> ends;
     ends.apart = position[j] - position[i];
     if (orientation) {
       ends.q1 = orientation[i];

@@ -107,7 +107,7 @@ struct CohesiveFaces : CohesiveColumns {
       return softened;
   }
 
-  Matrix12 sound(const One& at, const Ends<Real>& ends) const { return sound_stiffness(modes, faces(at, ends), at(area)); }
+  Matrix12 sound(const One& at, const TurningEnds<Real>& ends) const { return sound_stiffness(modes, faces(at, ends), at(area)); }
   bool has_failed(const One& at) const { return modes.failed(recall(at).modes) || recall(at).parted > 0; }
   bool softens(const One& at) const { return modes.softens(recall(at).modes); }
   /// Of a contact that has failed: by sliding, rather than by opening.
