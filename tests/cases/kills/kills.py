@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Kills a run at random moments, again and again, and resumes it: curves, frames and breaks are those of a run without any stop.
+"""Kills a run at random moments, again and again, and resumes it: curves, frames, breaks and state are those of a run without any stop.
 Usage: kills.py BEADWORK DECK [ROUNDS] [SEED]
 
 A round is a run that is killed until it gets to its end. Checkpoints follow one another as fast as they can be written, and
@@ -12,10 +12,8 @@ import tempfile
 import time
 from pathlib import Path
 
-import h5py
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from same import odd_places  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+import same_run  # noqa: E402
 
 
 def command(beadwork, deck, out, *more):
@@ -41,18 +39,6 @@ def killed_after(seconds, beadwork, deck, out):
     return was_running
 
 
-def differences(whole, other):
-    found = []
-    for curve in sorted((whole / "curves").glob("*.csv")):
-        if curve.read_bytes() != (other / "curves" / curve.name).read_bytes():
-            found.append(f"curves/{curve.name}")
-    with h5py.File(whole / "run.h5") as one, h5py.File(other / "run.h5") as two:
-        if list(one["frames"]) != list(two["frames"]):
-            found.append(f"frames {list(one['frames'])} and {list(two['frames'])}")
-        found += odd_places(one, two)
-    return found
-
-
 def main():
     beadwork, deck = sys.argv[1], Path(sys.argv[2]).resolve()
     rounds = int(sys.argv[3]) if len(sys.argv) > 3 else 6
@@ -70,7 +56,7 @@ def main():
                     break
                 kills += 1
             to_the_end(beadwork, deck, out, "--resume" if (out / "checkpoint.h5").exists() else "--overwrite")
-            if found := differences(whole, out):
+            if found := same_run.differences(whole, out):
                 print(f"round {number}: {found}")
                 return 1
     print(f"{rounds} rounds, {kills} kills: as without any stop")

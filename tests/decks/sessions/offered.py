@@ -29,10 +29,9 @@ weak, strong, third = uses.values()
 assert weak["of"] == "weak" and 1 <= weak["largest"] < 1.1 and weak["bond"] == 0 and weak["step"] == broke[0] and weak["elements"] == [0, 1], weak
 assert 0.05 < strong["largest"] < 0.2 and strong["bond"] == 1 and strong["elements"] == [1, 2] and strong["step"] % 7 == 0, strong
 assert abs(strong["place"][0] - 3e-3) < 1e-4 and third["step"] % 11 == 0 and third["largest"] < 0.5 * strong["largest"] + 0.01, (strong, third)
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "cases"))
-from same import odd_places  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
+import same_run  # noqa: E402
 
 for other in sys.argv[2:]:
-    with h5py.File(run / "run.h5") as one, h5py.File(Path(other) / "run.h5") as two:
-        assert not odd_places(one, two), odd_places(one, two)
+    assert not same_run.differences(run, Path(other)), same_run.differences(run, Path(other))
     assert json.loads((Path(other) / "summary.json").read_text())["utilisation"] == uses
