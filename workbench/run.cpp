@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "core/base/failure.hpp"
@@ -23,6 +24,17 @@ struct RunArguments {
   int threads = 0;
   double checkpoint_minutes = 10;
 };
+
+// For who looks at the run later; the terminal stays short.
+void note_in_file(const spdlog::logger& log, const std::string& line) {
+  log.sinks().front()->log({log.name(), spdlog::level::info, line});
+}
+
+std::string instructions_of(const Library& library) {
+  const auto sets = instruction_sets();
+  const std::string folder = library.path.parent_path().filename().string();
+  return std::find(sets.begin(), sets.end(), folder) == sets.end() ? "baseline" : folder;
+}
 
 int run(const RunArguments& arguments) {
   heed_signals();
@@ -50,7 +62,8 @@ int run(const RunArguments& arguments) {
 
   log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
             loaded.catalogue.instructions(), arguments.out);
-  for (const Library& library : loaded.catalogue.libraries()) log->debug("plugins: {} ({})", library.path.string(), library.version);
+  for (const Library& library : loaded.catalogue.libraries())
+    note_in_file(*log, fmt::format("plugins: {}, {} instructions, built for {}", library.path.string(), instructions_of(library), library.version));
   Run job(*loaded.scene, loaded.catalogue, folder, options);
   try {
     job.all();

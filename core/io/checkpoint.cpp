@@ -14,7 +14,7 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // ---- writing
 

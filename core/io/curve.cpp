@@ -31,19 +31,6 @@ void append(std::string& row, T number) {
   row.append(digits, end);
 }
 
-// Length of the file up to the last whole row that is not later than `step`.
-std::uintmax_t length_up_to(std::ifstream& in, std::uintmax_t first_row, std::int64_t step) {
-  std::uintmax_t length = first_row;
-  std::string row;
-  while (std::getline(in, row) && !in.eof()) {  // a row that ends with the file, not with its line, is torn
-    std::int64_t at = 0;
-    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), at);
-    if (error != std::errc() || end == row.data() + row.size() || *end != ',' || at > step) break;
-    length += row.size() + 1;
-  }
-  return length;
-}
-
 std::ifstream open_to_read(const std::filesystem::path& file) {
   open_regular(file, O_RDONLY, "read");  // refuses what would be followed or waited for
   return std::ifstream(file, std::ios::binary);
@@ -55,14 +42,21 @@ std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
   return head;
 }
 
+// Up to `most`, in whole rows: one that ends with the file, not with its line, is torn.
+std::uintmax_t length_of(const std::filesystem::path& file, std::uintmax_t most) {
+  std::ifstream in = open_to_read(file);
+  std::uintmax_t length = head_of(in, file).size() + 1;
+  for (std::string row; length < most && std::getline(in, row) && !in.eof();) length += row.size() + 1;
+  return length;
+}
+
 }  // namespace
 
-std::vector<CurveCut> cuts_after(std::int64_t step, const std::vector<std::filesystem::path>& files) {
+std::vector<CurveCut> cuts_to(const std::map<std::string, std::uintmax_t>& lengths, const std::vector<std::filesystem::path>& files) {
   std::vector<CurveCut> cuts;
   for (const auto& file : files) {
-    std::ifstream in = open_to_read(file);
-    const std::string head = head_of(in, file);
-    cuts.push_back({file, length_up_to(in, head.size() + 1, step)});
+    const auto known = lengths.find(file.stem().string());
+    cuts.push_back({file, length_of(file, known == lengths.end() ? 0 : known->second)});
   }
   return cuts;
 }
@@ -116,6 +110,12 @@ void Curve::add(std::int64_t step, std::span<const Real> values) {
 
 void Curve::sync() {
   if (::fsync(descriptor_.number()) != 0 && errno != EINVAL) throw file_failure("write", file_, errno);
+}
+
+std::uintmax_t Curve::length() const {
+  const off_t end = ::lseek(descriptor_.number(), 0, SEEK_END);
+  if (end < 0) throw file_failure("read", file_, errno);
+  return static_cast<std::uintmax_t>(end);
 }
 
 void Curve::write_sidecar(const std::string& json) const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ class Curve {
   void add(std::int64_t step, std::span<const Real> values);
   /// Waits until the disk has the rows; before a checkpoint, so that it never knows more than the curve.
   void sync();
+  /// Of the file, in bytes.
+  std::uintmax_t length() const;
   /// Writes a text about the curve beside it: curves/force.csv, curves/force.json.
   void write_sidecar(const std::string& json) const;
 
@@ -52,9 +55,10 @@ struct CurveCut {
   std::filesystem::path file;
   std::uintmax_t length = 0;
 };
-/// The cuts that drop the rows after `step` of these curves, and last rows that a kill has torn. Changes nothing: a resume looks at
-/// everything before it cuts anything. MachineFailure if one cannot be read.
-std::vector<CurveCut> cuts_after(std::int64_t step, const std::vector<std::filesystem::path>& files);
+/// The cuts that take these curves back to a checkpoint, which knows how long each was, by its name: rows that came later go, be they of
+/// its very step, and a last row that a kill has torn. Of a curve that has been cut shorter whole rows stay; of one that the checkpoint does
+/// not know the first line. Changes nothing: a resume looks at everything before it cuts anything. MachineFailure if one cannot be read.
+std::vector<CurveCut> cuts_to(const std::map<std::string, std::uintmax_t>& lengths, const std::vector<std::filesystem::path>& files);
 void cut(const std::vector<CurveCut>& cuts);
 
 }  // namespace beadwork

@@ -58,6 +58,8 @@ class Assembly {
   bool meet(const Plugin& reader, const FieldUse& use);
   void complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names);
   void meet_names(const Plugin& reader, const ParamBase& fields);
+  void provide_all(const Plugin& reader);
+  bool can_derive(const std::string& name) const;
   bool provide(On on, const std::string& name, const std::string& family);
   bool derive(const std::string& name, const Plugin& reader);
   std::vector<std::string> providable(On on, const std::string& family) const;

@@ -79,6 +79,8 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
 
 }  // namespace
 
+bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) { return !candidates(law, domain, pause).pairs.empty(); }
+
 std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause, const Warn& warn) {
   Candidates among = candidates(law, domain, pause);
   if (among.pairs.empty())

@@ -73,6 +73,7 @@ std::vector<Mark> Mark::list(const std::string& text, const std::string& attribu
       complaints.error(place, fmt::format("'{}' wants moments such as \"0.3 mm, 1 ms\", got \"{}\"", attribute, text));
       continue;
     }
+    if (word == "end") continue;  // every watcher looks at the end
     const auto quantity = Expression::compile(word, place, scope, {}, complaints);
     if (!quantity) continue;
     if (const auto mark = of(*quantity, attribute, "a time, a number of steps or a displacement", word, place, complaints))

@@ -6,6 +6,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
+#include "core/loop/blame.hpp"
 #include "core/loop/bounded_json.hpp"
 #include "core/loop/forecast.hpp"
 #include "core/loop/run_curve.hpp"
@@ -37,9 +38,9 @@ void Run::open_record() {
   if (!options_.resume) {
     recorder_ = Recorder::fresh(folder_, meta(), options, domain());
   } else {
-    const auto cuts = cuts_after(moment_.step, curves_to_cut());
+    const auto cuts = cuts_to(curve_ends_, curves_to_cut());
     folder_.clear_leftovers();
-    recorder_ = Recorder::resume(folder_, meta(), options, domain(), moment_.step);
+    recorder_ = Recorder::resume(folder_, meta(), options, domain(), frame_now_.is_of(moment_) ? moment_.step : moment_.step - 1);
     cut(cuts);
   }
   for (const std::string& note : recorder_->notes()) {
@@ -56,14 +57,25 @@ std::vector<std::filesystem::path> Run::curves_to_cut() const {
   return files;
 }
 
+// The frame of the step of the checkpoint, as it was then: what looked after it may have added to it.
+void Run::frame_anew() {
+  if (!frame_now_.can_be_made_anew(moment_)) return;
+  complete();
+  if (offered_.is_read()) offer();
+  for (Derived* derived : scene_.derived) blaming(*derived, moment_, [&] { derived->derive(domain()); });
+  frame(frame_now_.plan);
+}
+
 Real& Run::state(const std::string& name) { return domain().scene().column(name).view<Real>()[0]; }
 
 namespace {
 
 // Both directions by one list, so that nothing is saved and not restored: f(name, number).
 template <class F>
-void each_state(std::vector<std::vector<Peak>>& peaks, std::vector<std::vector<std::vector<Real>>>& looked,
-                std::vector<std::vector<Constraint>>& constraints, const F& f) {
+void each_state(std::vector<std::vector<Peak>>& peaks, std::vector<std::vector<std::vector<Real>>>& looked, std::vector<std::vector<Real>>& last_look,
+                std::vector<std::vector<Constraint>>& constraints, std::vector<std::pair<const Failure*, LargestUse>>& uses, const F& f) {
+  for (auto& [criterion, use] : uses)
+    use.each([&, id = criterion->id()](const char* name, Real& number, const char*) { f(fmt::format("largest-use.{}.{}", id, name), number); });
   for (std::size_t s = 0; s < peaks.size(); ++s) {
     for (Peak& peak : peaks[s]) {
       f(fmt::format("peak-force.{}.{}", s, peak.set), peak.force);
@@ -71,6 +83,7 @@ void each_state(std::vector<std::vector<Peak>>& peaks, std::vector<std::vector<s
     }
     for (std::size_t w = 0; w < looked[s].size(); ++w)
       for (std::size_t k = 0; k < looked[s][w].size(); ++k) f(fmt::format("looked.{}.{}.{}", s, w, k), looked[s][w][k]);
+    for (std::size_t w = 0; w < last_look[s].size(); ++w) f(fmt::format("last-look.{}.{}", s, w), last_look[s][w]);
     for (std::size_t k = 0; k < constraints[s].size(); ++k) {
       f(fmt::format("reaction.{}.{}", s, k), constraints[s][k].reaction);
       f(fmt::format("work.{}.{}", s, k), constraints[s][k].work);
@@ -90,7 +103,7 @@ void Run::store_state() {
   state("initial-energy") = initial_energy_;
   state("looks-owed") = static_cast<Real>(owed_);
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
-  each_state(peaks_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
+  each_state(peaks_, looked_, last_look_, constraints_, figures_.largest_uses, [&](const std::string& name, Real& number) { state(name) = number; });
 }
 
 void Run::restore_state() {
@@ -103,13 +116,21 @@ void Run::restore_state() {
   initial_energy_ = state("initial-energy");
   owed_ = static_cast<std::size_t>(state("looks-owed"));
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
-  each_state(peaks_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
+  each_state(peaks_, looked_, last_look_, constraints_, figures_.largest_uses, [&](const std::string& name, Real& number) { number = state(name); });
+}
+
+// Rows that come after the checkpoint are dropped by a resume, be they of its very step.
+std::string Run::curve_ends() {
+  for (auto& [name, curve] : curves_) {
+    curve->curve.sync();
+    curve_ends_[name] = curve->curve.length();
+  }
+  return nlohmann::json(curve_ends_).dump();
 }
 
 void Run::save() {
   complete();
   store_state();
-  for (auto& [name, curve] : curves_) curve->curve.sync();
   CheckpointMeta meta;
   meta.version = version;
   meta.deck_sha256 = scene_.deck_sha256;
@@ -120,6 +141,8 @@ void Run::save() {
   meta.seed = scene_.seed;
   meta.texts["packing"] = "[" + join(figures_.packing_reports, ",") + "]";
   meta.texts["files"] = nlohmann::json(files_).dump();
+  meta.texts["curves"] = curve_ends();
+  meta.texts["frame"] = frame_now_.json();
   save_checkpoint(folder_.checkpoint(), domain(), meta);
   saved_ = Clock::now();
   has_checkpoint_ = true;
@@ -135,6 +158,9 @@ void Run::load() {
   moment_.time = meta.time;
   moment_.step = meta.step;
   for (const auto& report : bounded_json(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
+  const auto ends = bounded_json(meta.texts.at("curves"));
+  for (const auto& [curve, length] : ends.items()) curve_ends_[curve] = length.get<std::uintmax_t>();
+  frame_now_ = *FrameNow::of(meta.texts.at("frame"));
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;
@@ -150,6 +176,10 @@ void Run::check_restored(const CheckpointMeta& meta) const {
   const auto stages = scene_.stages.size();
   refuse_if(static_cast<std::size_t>(meta.stage) >= stages, fmt::format("stage {} is none of {}", meta.stage, stages));
   refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(), "its report on the packing is not whole");
+  const auto curves = meta.texts.contains("curves") ? bounded_json(meta.texts.at("curves")) : nlohmann::ordered_json();
+  refuse_if(!curves.is_object() || !std::all_of(curves.begin(), curves.end(), [](const auto& length) { return length.is_number_unsigned(); }),
+            "its lengths of curves are not whole");
+  refuse_if(!meta.texts.contains("frame") || !FrameNow::of(meta.texts.at("frame")), "what it says of a frame is not whole");
   const auto number = [&](const char* name) { return scene_.domain->scene().column(name).view<const Real>()[0]; };
   for (const char* name : {"time-step", "stage-start", "stage-step", "looks-owed", "wall-seconds"})
     refuse_if(!std::isfinite(number(name)), fmt::format("'{}' is no number", name));
@@ -212,7 +242,13 @@ void Run::reserve_room() const {
   }
 }
 
-void Run::show_progress() { options_.progress(headway_of(scene_, moment_, constraints())); }
+void Run::show_progress() {
+  Headway headway = headway_of(scene_, moment_, constraints());
+  Real largest = 0;
+  for (const auto& [criterion, use] : figures_.largest_uses) largest = std::max(largest, use.value);
+  if (!figures_.largest_uses.empty()) headway.detail += fmt::format(", largest utilisation {:.3g}", largest);
+  options_.progress(headway);
+}
 
 Real Run::wall_seconds() const { return wall_before_ + std::chrono::duration<Real>(Clock::now() - began_).count(); }
 
@@ -223,14 +259,8 @@ void Run::write_summary() {
 
 std::string Run::summary() const { return summary_json(scene_, files_, figures_, moment_, options_.threads, *this); }
 
-// What is read from bonds is not saved: a watcher of it that is owed a look could not have it later.
-bool Run::can_be_saved() const {
-  if (!whole_) return false;
-  const auto& watchers = scene_.stages[stage_number()].watchers;
-  for (std::size_t w = watchers.size() - owed_; w < watchers.size(); ++w)
-    if (scene_.section_readers.contains(watchers[w]) && due(w)) return false;
-  return true;
-}
+// The end of a stage has been saved before it is looked at: what has looked then would look twice.
+bool Run::can_be_saved() const { return whole_ && !ending_; }
 
 // The machine gave out: what can still be kept is kept, each for itself.
 void Run::rescue(const std::string& reason) {
@@ -262,6 +292,8 @@ void Run::rescue(const std::string& reason) {
 
 // An orderly end, for better or worse: the record is whole, and says why the run ended.
 void Run::close(const std::string& status, const std::string& reason) {
+  repeats_.conclude();
+  for (const auto& [criterion, use] : figures_.largest_uses) options_.say(sentence(use, *criterion));
   figures_.status = status;
   figures_.exit_reason = reason;
   std::error_code error;
@@ -288,19 +320,32 @@ CurveSink& Run::curve(const CurvePlan& plan) {
   return *(curves_[plan.name] = std::move(made));
 }
 
+namespace {
+
+// "all" is every field but the core's own, of which the frame has what it needs.
+std::vector<const Column*> columns_of(const Table& table, const FramePlan& plan) {
+  std::vector<const Column*> found;
+  for (const std::string& name : plan.fields) {
+    if (name == every_field)
+      for (const Column* column : table.columns()) found.push_back(column);
+    else if (const Column* column = table.find(name))
+      found.push_back(column);
+  }
+  std::erase_if(found, [](const Column* column) { return column->field().name == "first" || column->field().name == "second" || column->field().name == "target"; });
+  return found;
+}
+
+}  // namespace
+
 void Run::frame(const FramePlan& plan) {
   FrameRequest request;
   request.picture = plan.picture;
   request.view = plan.view;
-  const auto columns = [&](const Table& table) {
-    std::vector<const Column*> found;
-    for (const std::string& name : plan.fields)
-      if (const Column* column = table.find(name)) found.push_back(column);
-    return found;
-  };
+  const auto columns = [&](const Table& table) { return columns_of(table, plan); };
   request.elements = columns(domain().elements());
   for (const auto& [law, table] : laws_) request.bonds.push_back({table, law->tag(), columns(table->rows())});
   recorder_->write({moment_.step, moment_.time, moment_.stage}, request, domain());
+  frame_now_.add(moment_, plan);
 }
 
 }  // namespace beadwork

@@ -42,6 +42,8 @@ void Run::fill() {
     filler->fill(domain(), job);
     check_elements(*filler, domain());
   }
+  check_constraints();
+  foresee_families();
 }
 
 // Before the first step there is nothing to save.
@@ -66,6 +68,10 @@ void Run::add_state_columns() {
   keep("initial-energy", "J", "Energy that was there without any work");
   keep("looks-owed", "1", "Watchers that have not had their turn at this step");
   for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds, or of all once they act no longer");
+  for (auto& [criterion, use] : figures_.largest_uses)
+    use.each([&, id = criterion->id()](const char* name, Real&, const char* unit) {
+      keep(fmt::format("largest-use.{}.{}", id, name), unit, "Of the largest utilisation that a criterion has found so far");
+    });
   looked_.resize(scene_.stages.size());
   for (std::size_t s = 0; s < scene_.stages.size(); ++s) {
     for (const Peak& peak : peaks_.emplace_back(peaks_of(constraints_[s]))) {
@@ -73,6 +79,8 @@ void Run::add_state_columns() {
       keep(fmt::format("peak-displacement.{}.{}", s, peak.set), "m", "Largest displacement so far of a driven set");
     }
     for (const auto& marks : scene_.stages[s].marks) looked_[s].emplace_back(marks.size(), 0);
+    last_look_.emplace_back(scene_.stages[s].watchers.size(), -1);
+    for (std::size_t w = 0; w < last_look_[s].size(); ++w) keep(fmt::format("last-look.{}.{}", s, w), "1", "Step at which a watcher looked last");
     for (std::size_t w = 0; w < looked_[s].size(); ++w)
       for (std::size_t k = 0; k < looked_[s][w].size(); ++k) keep(fmt::format("looked.{}.{}.{}", s, w, k), "1", "1 once the moment had its look");
     for (std::size_t k = 0; k < constraints_[s].size(); ++k) {
@@ -114,6 +122,21 @@ void Run::begin_constraints() {
     const bool stood = stage_number() > 0 && std::any_of(first.begin(), first.end(), [&](const Load* load) { return load->id() == c.by; });
     c.began = stood ? 0 : moment_.stage_start;
   }
+}
+
+// What the sets alone tell is told before the first stage, not after hours.
+void Run::check_constraints() const {
+  for (std::size_t s = 0; s < scene_.stages.size(); ++s) check_constraints(scene_.stages[s], constraints_[s]);
+}
+
+// Whether elements meet until their stage begins nobody knows; that they do not yet is worth a word.
+void Run::foresee_families() const {
+  for (std::size_t s = 1; s < scene_.stages.size(); ++s)
+    for (const BondLaw* law : scene_.stages[s].laws)
+      if (scene_.first_stage(*law) == s && !has_pairs(*law, *scene_.domain, [this] { pause(); }))
+        options_.warn(fmt::format("{}: family '{}' would have no bond if stage '{}' began now: no element of '{}' touches one of '{}' yet; if it stays so, "
+                                  "the run ends there",
+                                  law->at().where(), *law->name, scene_.stages[s].name, (*law->between)[0], (*law->between)[1]));
 }
 
 // One degree of freedom of an element has one master.

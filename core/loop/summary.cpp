@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/version.hpp"
@@ -36,6 +37,22 @@ class Terms final : public EnergySink {
   EnergySums sums_;
 };
 
+// How near to breaking the run came, by criterion.
+Json utilisation(const RunFigures& figures) {
+  Json all = Json::object();
+  for (const auto& [criterion, use] : figures.largest_uses) {
+    Json& one = all[criterion->id()];
+    one = {{"of", criterion->family()}, {"mode", criterion->mode()}, {"largest", use.value}};
+    if (!use.is_there()) continue;
+    one["step"] = std::llround(use.step);
+    one["time"] = use.time;
+    one["bond"] = std::llround(use.bond);
+    one["elements"] = {std::llround(use.first), std::llround(use.second)};
+    one["place"] = {use.x, use.y, use.z};
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
@@ -69,6 +86,7 @@ std::string summary_json(const Scene& scene, const FileSums& files, const RunFig
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;
   for (const Break& b : log.breaks) json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] = json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
+  json["utilisation"] = utilisation(figures);
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));
   if (!figures.notes.empty()) json["notes"] = figures.notes;

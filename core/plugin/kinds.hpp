@@ -1,6 +1,7 @@
 #pragma once
 // The kinds of plugins: in which section of a deck each stands, when it runs, and what it may change.
 
+#include <algorithm>
 #include <any>
 #include <functional>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <span>
 
 #include "core/base/headway.hpp"
+#include "core/base/parallel.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/mechanics/stiffness.hpp"
 #include "core/plugin/plugin.hpp"
@@ -176,6 +178,8 @@ class Workings {
   virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
   virtual void say(const std::string& line) = 0;
   virtual void warn(const std::string& line) = 0;
+  /// For what may come again and again: of all lines on one subject the first is said, and the newest at the end of the run.
+  virtual void say_once(const std::string& subject, const std::string& line) = 0;
 };
 
 class Mover : public Plugin {
@@ -213,6 +217,13 @@ class Mover : public Plugin {
 
 // ---------------------------------------------------------------------------------------------------- fail
 
+/// What a criterion finds among the bonds of its family.
+struct Verdict {
+  std::vector<Index> fallen;  ///< rows of the bonds that break, ascending
+  Real largest = 0;           ///< utilisation: what the criterion finds over its threshold
+  Index row = -1;             ///< of the bond that has it; -1 where none has any
+};
+
 class Failure : public Plugin {
  public:
   static constexpr Kind kind = Kind::fail;
@@ -221,10 +232,36 @@ class Failure : public Plugin {
   Writes<Real> utilisation{this, field_utilisation()};
 
   std::string family() const override { return *of; }
-  /// Rows of the bonds that fall, ascending: all are judged on one configuration, so that no order matters.
-  virtual std::vector<Index> judge(const Domain& domain, const BondTable& table) = 0;
-  /// Name of the way in which bonds fall, for the log.
+  /// All bonds are judged on one configuration, so that no order matters. Also called at other steps than those of `every`, for those
+  /// who want to see utilisations; then nothing breaks.
+  virtual Verdict judge(const Domain& domain, const BondTable& table) = 0;
+  /// Name of the way in which bonds break, for the log.
   virtual std::string mode() const = 0;
+
+ protected:
+  /// The pass over the live bonds, which the threads share: f(row) is the utilisation of a bond, which breaks from 1 on. Written where
+  /// somebody reads it; of several criteria for one family the largest.
+  template <class F>
+  Verdict judge_each(const BondTable& table, const F& f) const {
+    std::vector<Verdict> parts(table.chunks().size());
+    each_shared(static_cast<Index>(parts.size()), [&](Index c) {
+      const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
+      Verdict part;
+      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+        const Real use = f(b);
+        if (utilisation) utilisation[b] = std::max(utilisation[b], use);
+        if (use > part.largest) part.largest = use, part.row = b;
+        if (use >= 1) part.fallen.push_back(b);
+      }
+      parts[static_cast<std::size_t>(c)] = std::move(part);
+    });
+    Verdict all;
+    for (const Verdict& part : parts) {
+      all.fallen.insert(all.fallen.end(), part.fallen.begin(), part.fallen.end());
+      if (part.largest > all.largest) all.largest = part.largest, all.row = part.row;
+    }
+    return all;
+  }
 
  private:
   static const Field& field_utilisation();
@@ -259,6 +296,9 @@ struct CurvePlan {
   std::string kind;                     ///< "ledger" for an energy balance
 };
 
+/// In the place of the name of a field: all that there are.
+inline constexpr const char* every_field = "all";
+
 struct FramePlan {
   std::vector<std::string> fields;
   bool picture = false;
@@ -290,10 +330,11 @@ class Watcher : public Plugin {
       this,
       {.name = "at",
        .doc = "Moments of single looks, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
-              "(0.3 mm), counted from the start of the stage as in 'until'; beside 'every' or instead of it",
+              "(0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the stage, at which every watcher looks in any "
+              "case; beside 'every' or instead of it",
        .optional = true}};
-  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at', and brings up to date
-  /// what the watcher reads.
+  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at' and to the end of the stage, and
+  /// brings up to date what the watcher reads.
   virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
   /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
   virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}

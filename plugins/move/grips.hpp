@@ -40,8 +40,8 @@ class Grips {
       if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, when);
       sets_.push_back(c.grip == Grip::mean ? without_debris(all, body) : all);
       if (sets_.back().size() < all.size())
-        w.say(fmt::format("{} of the {} elements of '{}' hang loose (bonded to nothing, or to little debris) and are left out of its mean",
-                          all.size() - sets_.back().size(), all.size(), c.set));
+        w.say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong to a small fragment, and are left out of its mean",
+                                                   all.size() - sets_.back().size(), all.size(), c.set));
       means_.push_back(0);
       weights_.push_back(c.axis < 3 ? weight(c.grip, sets_.back(), w.domain().elements().column("mass").view<Real>()) : 0);
       for (const Index row : sets_.back()) {

@@ -38,7 +38,7 @@ class Verlet final : public Mover {
   Reads<Real> radius{this, field::radius};
   Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
   Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
-  Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided what hangs loose in a grip"}};
+  Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided which elements without bonds a grip leaves out"}};
   Keeps<Real> stable{this, {"stable-step", On::scene, "s", "Largest stable step when the stage began"}};
 
   void choose_rotations(bool wanted) override {

@@ -3,7 +3,8 @@
 Usage: run_cases.py BEADWORK DECK QUESTION
 
 same_bits   one thread, two threads, a run split by a restart, and narrower instruction sets: equal bits in every
-            checkpoint and curve; a look at each step: equal bits in the checkpoint
+            checkpoint, curve and frame, which have every field that the deck's plugins offer; a look at each step: equal bits
+            in the checkpoint
 mixed       as same_bits, with the forces of beams in single precision
 killed      kill -9 in the middle: run.h5 opens, and the checkpoint goes on to the same bits
 resolved    resolved.xml alone, run from another folder: equal bits in every curve, frame and checkpoint
@@ -44,6 +45,7 @@ class Case:
         for file in deck.parent.glob("*.xml"):
             shutil.copy(file, folder)
         self.deck = folder / deck.name
+        self.deck.write_text(self.deck.read_text().replace("</scene>", '<watch><snapshot fields="all" every="1"/></watch></scene>'))
         self.drop_parameters_of_until()
 
     def drop_parameters_of_until(self):
@@ -101,6 +103,8 @@ class Case:
             frames = [list(file.get("frames", {})) for file in (a, b)]
             if alike and frames[0] != frames[1]:
                 differences.append(f"frames {frames[0][:30]} and {frames[1][:30]}")
+        for group in ("frames", "breaks") if alike else ():
+            differences += same_run.differences_of_groups(self.folder / one, self.folder / other, "run.h5", group)
         if self.settings and not damaged and one != "whole":
             differences.append("nothing was damaged in these steps: make HURRY faster")
         print(f"{one} and {other}: {len(names[0])} datasets, {len(frames[0])} frames{', damaged' if damaged else ''}: "

@@ -14,6 +14,12 @@ foreach(deck IN LISTS decks)
   endforeach()
 endforeach()
 
+# Killed at random, again and again. More rounds than here: kills.py BEADWORK DECK 80
+foreach(deck breaks stages)
+  add_test(NAME cases/kills/${deck} COMMAND /usr/bin/python3 ${here}/kills/kills.py $<TARGET_FILE:beadwork_cli> ${here}/kills/${deck}.xml 6)
+  set_tests_properties(cases/kills/${deck} PROPERTIES LABELS cases TIMEOUT 600 ENVIRONMENT "BEADWORK_PLUGINS=")
+endforeach()
+
 # What a run leaves opens in ParaView itself, where that is installed.
 find_program(PVPYTHON pvpython)
 if(PVPYTHON)

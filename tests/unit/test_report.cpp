@@ -84,6 +84,9 @@ class Report : public testing::Test {
           R"({"scene": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
       "elements": 12, "bonds": {"interface": 6}, "steps": 100, "time_step": 1e-5, "wall_seconds": 83,
       "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
+      "utilisation": {"fail.bond-stress": {"of": "interface", "mode": "axial-bending", "largest": 0.8731, "step": 80, "time": 8e-4,
+                      "bond": 3, "elements": [3, 9], "place": [0.003, 0, 0.0005]},
+                      "fail.bond-stress.2": {"of": "<i>", "mode": "axial", "largest": 0}},
       "packing": [{"density": 0.615, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
     write(folder / "resolved.xml", "<scene name=\"small\"><fill/></scene><script>alert(1)</script>");
     write(folder / "run.log", "first line\nlast line\n");
@@ -142,6 +145,13 @@ TEST_F(Report, pictures_say_at_which_loading_and_in_which_state_the_specimen_is)
 TEST_F(Report, the_ledger_names_its_residual) {
   make_run();
   EXPECT_THAT(page(), HasSubstr("Residual over the largest energy: <b>1.00 %</b> at the end, 1.00 % at most"));  // derived: (2 - 1.98) / 2
+}
+
+TEST_F(Report, says_how_near_to_breaking_the_run_came_and_where) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<td>interface</td><td>axial-bending</td><td>0.8731</td><td>bond 3 between elements 3, 9, at (3, 0, 0.5) mm, step 80, 800 µs</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>&lt;i&gt;</td><td>axial</td><td>0</td><td>no bond was under load</td>"));
 }
 
 TEST_F(Report, breaks_and_packing_are_there) {

@@ -66,6 +66,7 @@ std::string page_of(Run& run, const std::string& view) {
   body += attempt(run, "The curves", [&] { return curves(run, shown); });
   body += attempt(run, "The pictures", [&] { return pictures(run, shown, view); });
   body += attempt(run, "The energy ledger", [&] { return ledger(run); });
+  body += attempt(run, "The utilisation", [&] { return utilisation(run); });
   body += attempt(run, "The breaks", [&] { return breaks(run); });
   body += attempt(run, "The packing", [&] { return packing(run); });
   body += attempt(run, "Deck and log", [&] { return deck_and_log(run); });

@@ -11,6 +11,7 @@ namespace beadwork::report {
 std::string facts(const Run&);
 std::string curves(const Run&, const std::vector<record::FrameHead>& pictured);
 std::string ledger(const Run&);
+std::string utilisation(const Run&);
 std::string breaks(const Run&);
 std::string packing(const Run&);
 std::string deck_and_log(const Run&);
