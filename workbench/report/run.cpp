@@ -27,7 +27,7 @@ bool stands(const fs::path& file) {
 std::string text_of_file(const fs::path& file, std::uintmax_t longest, std::vector<std::string>& notes) {
   if (!stands(file)) return "";
   try {
-    return read_text(file, longest);
+    return beadwork::read_text(file, longest);
   } catch (const MachineFailure& problem) {
     notes.push_back("It was left out what " + file.filename().string() + " says: " + problem.what() + ".");
     return "";
