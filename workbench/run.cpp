@@ -2,9 +2,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include <thread>
-
 #include "core/base/failure.hpp"
+#include "core/base/processors.hpp"
 #include "core/version.hpp"
 #include "workbench/progress.hpp"
 #include "workbench/run_log.hpp"
@@ -33,7 +32,7 @@ int run(const RunArguments& arguments) {
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;
-  options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = arguments.threads > 0 ? arguments.threads : allowed_processors();
   options.resume = arguments.resume;
   options.commands = commands_of(arguments.words, arguments.batch);
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
@@ -83,7 +82,7 @@ void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
-  verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
+  verb->add_option("--threads", arguments->threads, "Number of threads; as many as there are processors that it may use where absent")->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }

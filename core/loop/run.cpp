@@ -1,12 +1,12 @@
 #include "core/loop/run.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <set>
 
 #include "core/base/failure.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/sha256.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/handed_over.hpp"
@@ -16,7 +16,7 @@ namespace beadwork {
 
 Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options)
     : scene_(scene), catalogue_(catalogue), folder_(folder), options_(std::move(options)), began_(Clock::now()), saved_(began_), shown_(began_) {
-  omp_set_num_threads(options_.threads);
+  use_threads(options_.threads);
   for (const std::string& path : scene_.files()) files_[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
   gather_constraints();
   add_state_columns();
