@@ -85,15 +85,14 @@ std::vector<Variation> variations_of(const BatchArguments& arguments) {
 int batch(const BatchArguments& arguments) {
   const std::vector<Variation> variations = variations_of(arguments);
   std::vector<BatchRun> runs = runs_of(arguments, variations);
-  if (const std::string mistakes = check_decks(runs); !mistakes.empty()) {
-    std::fputs(mistakes.c_str(), stderr);
-    if (!arguments.keep_going) {
-      std::fprintf(stderr, "nothing was run; --keep-going runs the others\n");
-      return static_cast<int>(ExitCode::deck);
-    }
+  const auto [refused, mistakes] = check_decks(runs);
+  std::fputs(mistakes.c_str(), stderr);
+  if (refused > 0 && !arguments.keep_going) {
+    std::fprintf(stderr, refused < runs.size() ? "nothing was run; --keep-going runs the others\n" : "nothing was run\n");
+    return worst(runs);
   }
   const auto count = [&](const auto& which) { return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), which)); };
-  const std::size_t done = count([](const BatchRun& run) { return run.done; }), refused = count([](const BatchRun& run) { return run.refused; });
+  const std::size_t done = count([](const BatchRun& run) { return run.done; });
   const fs::path out = arguments.out;
   std::error_code error;
   fs::create_directories(out, error);

@@ -39,9 +39,12 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Variation>&
 /// Of the values, without what a folder's name should not have; of 200 letters at most, a long one ends in a check sum of all of it.
 std::string folder_name(const std::vector<Variation>& variations, const std::vector<std::string>& values);
 
-/// Checks the decks of all runs, each as its process will see it, and marks those that are done and those that are refused. What is wrong
-/// with them, each mistake once with the runs that have it; empty if nothing is.
-std::string check_decks(std::vector<BatchRun>& runs);
+struct DeckCheck {
+  std::size_t refused = 0;  ///< runs
+  std::string text;         ///< what is wrong, and warnings, each once with the runs that it concerns
+};
+/// Checks the decks of all runs, each as its process will see it, and marks those that are done and those that are refused.
+DeckCheck check_decks(std::vector<BatchRun>& runs);
 
 /// True if a run ended there, in order. DeckFailure if it was another deck, or other values, that ran.
 bool is_done(const BatchRun& run);

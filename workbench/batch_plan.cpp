@@ -58,16 +58,15 @@ std::string folder_name(const std::vector<Variation>& variations, const std::vec
 
 namespace {
 
-// Complaints of one deck, each with the line that it is about and the mark below it.
-std::vector<std::string> single(const std::string& text) {
+// Each with the line of the deck that it is about.
+std::vector<std::string> each_of(const Complaints& complaints) {
   std::vector<std::string> all;
-  for (const std::string& line : split(text, '\n')) {
-    const bool counts = line.find(" error") != std::string::npos && line.find(':') == std::string::npos;  // "3 errors"
-    if (line.empty() || counts) continue;
-    if (all.empty() || !line.starts_with(' '))
-      all.push_back(line);
-    else
-      all.back() += "\n" + line;
+  for (const std::string& line : split(complaints.text(), '\n')) {
+    const auto begins = [&](const std::string& word) { return line.starts_with(word) || line.find(": " + word) != std::string::npos; };
+    if (begins("error: ") || begins("warning: ")) all.emplace_back();
+    if (!all.empty() && !line.empty() && !line.starts_with(fmt::format("{} error", complaints.errors())) &&
+        !line.starts_with(fmt::format("{} warning", complaints.warnings())))
+      all.back() += line + "\n";
   }
   return all;
 }
@@ -83,7 +82,7 @@ std::string listed(const std::vector<const BatchRun*>& runs, std::size_t all) {
 
 }  // namespace
 
-std::string check_decks(std::vector<BatchRun>& runs) {
+DeckCheck check_decks(std::vector<BatchRun>& runs) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<const BatchRun*>> who;
   const auto note = [&](const std::string& mistake, const BatchRun& run) {
@@ -93,21 +92,29 @@ std::string check_decks(std::vector<BatchRun>& runs) {
   };
   std::size_t bad = 0;
   for (BatchRun& run : runs) {
+    Complaints complaints;
+    std::string failure;
+    ExitCode code = ExitCode::deck;
     try {
-      run.deck_sha256 = load_scene(run.deck).deck->sha256;
-      run.done = is_done(run);
-      if (run.done) run.results = results_of(run.folder);
-    } catch (const DeckFailure& failure) {
-      run.refused = true;
-      run.code = static_cast<int>(ExitCode::deck);
-      ++bad;
-      for (const std::string& mistake : single(failure.what())) note(mistake, run);
+      const Loaded loaded = load_scene(run.deck, complaints);
+      if (loaded.deck) run.deck_sha256 = loaded.deck->sha256;
+      if (complaints.errors() == 0) run.done = is_done(run);
+    } catch (const Fault& one) {
+      code = one.code();
+      failure = shown(one) + "\n";
     }
+    for (const std::string& complaint : each_of(complaints)) note(complaint, run);
+    if (!failure.empty()) note(failure, run);
+    if (run.done) run.results = results_of(run.folder);
+    if (complaints.errors() == 0 && failure.empty()) continue;
+    run.refused = true;
+    run.code = static_cast<int>(code);
+    ++bad;
   }
   std::string text;
-  for (const std::string& mistake : order) text += fmt::format("{}\n  in {}\n", mistake, listed(who[mistake], runs.size()));
-  if (bad > 0) text += fmt::format("{} error{} in {} of {} runs\n", order.size(), order.size() == 1 ? "" : "s", bad, runs.size());
-  return text;
+  for (const std::string& mistake : order) text += fmt::format("{}  in {}\n", mistake, listed(who[mistake], runs.size()));
+  if (bad > 0) text += fmt::format("{} of {} runs cannot begin\n", bad, runs.size());
+  return {bad, text};
 }
 
 }  // namespace beadwork

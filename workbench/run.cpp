@@ -1,6 +1,7 @@
 #include "core/loop/run.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
 #include "core/base/failure.hpp"
 #include "core/base/processors.hpp"
@@ -18,10 +19,19 @@ struct RunArguments {
   DeckArguments deck;
   std::string out, batch;
   Words words;
+  std::string label;  // of a run that a batch has started: stands before its lines
+  int tell = -1;      // socket that takes how far it has come; -1 if nobody asks
   bool overwrite = false, resume = false, quiet = false;
   int threads = 0;
   double checkpoint_minutes = 10;
 };
+
+// A batch that does not listen, or is gone, does not hold the run up.
+void tell(int socket, const Headway& headway) {
+  if (socket < 0 || !headway.share || headway.work.starts_with("filling")) return;
+  const std::string text = fmt::format("{:.6f}", *headway.share);
+  ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+}
 
 int run(const RunArguments& arguments) {
   heed_signals();
@@ -45,7 +55,10 @@ int run(const RunArguments& arguments) {
     progress.hide();
     log->warn("warning: " + line);
   };
-  options.progress = [&](const Headway& headway) { progress.show(headway); };
+  options.progress = [&](const Headway& headway) {
+    progress.show(headway);
+    tell(arguments.tell, headway);
+  };
 
   log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
             loaded.catalogue.instructions(), arguments.out);
@@ -84,6 +97,8 @@ void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
   verb->add_option("--threads", arguments->threads, "Number of threads; as many as there are processors that it may use where absent")->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--label", arguments->label)->group("");  // these two are for batch
+  verb->add_option("--tell", arguments->tell)->group("");
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 
