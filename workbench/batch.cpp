@@ -20,6 +20,7 @@ struct BatchArguments {
   DeckArguments deck;
   std::string out, engine = "local";
   std::vector<std::string> variations;
+  Words words;
   int jobs = 0, threads = 0;
   bool keep_going = false;
 };
@@ -53,9 +54,9 @@ BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& v
   return run;
 }
 
-void write_command(BatchRun& run, int threads) {
+void write_command(BatchRun& run, int threads, const Words& words) {
   run.command = {fs::canonical("/proc/self/exe").string(), "run", fs::absolute(run.deck.path).string(), "--quiet", "--label", run.name,
-                 "--out", run.folder.string(), "--threads", std::to_string(threads)};
+                 "--batch", command_line(words), "--out", run.folder.string(), "--threads", std::to_string(threads)};
   for (const std::string& setting : run.deck.settings) run.command.insert(run.command.end(), {"--set", setting});
   for (const std::string& library : run.deck.libraries) run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
 }
@@ -98,7 +99,7 @@ int batch(const BatchArguments& arguments) {
   fs::create_directories(out, error);
   if (error) throw MachineFailure(fmt::format("error: cannot make folder '{}': {}", out.string(), error.message()));
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
-  for (BatchRun& run : runs) write_command(run, shares.threads);
+  for (BatchRun& run : runs) write_command(run, shares.threads, arguments.words);
   std::printf("%zu runs, %zu of them done already%s\n", runs.size(), done, refused ? fmt::format(", {} refused", refused).c_str() : "");
   std::fflush(stdout);
   const fs::path table = out / "batch.csv";
@@ -108,6 +109,7 @@ int batch(const BatchArguments& arguments) {
     return worst(runs) == static_cast<int>(ExitCode::deck) ? worst(runs) : 0;
   }
   run_here(runs, shares.jobs, variations, table);
+  if (worst(runs) == static_cast<int>(ExitCode::interrupted)) std::printf("interrupted; go on with: %s\n", command_line(arguments.words).c_str());
   std::printf("%s\n", table.c_str());
   return worst(runs);
 }

@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -29,6 +28,7 @@
 #include "core/io/file.hpp"
 #include "workbench/batch.hpp"
 #include "workbench/progress.hpp"
+#include "workbench/signals.hpp"
 
 namespace beadwork {
 
@@ -52,9 +52,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-std::atomic<bool> stopped{false};
-void note_stop(int) { stopped = true; }
 
 /// The process that has locked a file or folder, where the system tells: "process 4711", or "another process".
 std::string holder_of(const fs::path& path) {
@@ -175,9 +172,9 @@ class Here {
 
   void go() {
     bool asked = false;
-    while (!pool_.is_empty() || (!stopped && !waiting_.empty())) {
-      if (!stopped) start_some();
-      if (stopped && !asked) {
+    while (!pool_.is_empty() || (!interrupted && !waiting_.empty())) {
+      if (!interrupted) start_some();
+      if (interrupted && !asked) {
         pool_.ask_to_stop();
         asked = true;
       }
@@ -265,8 +262,7 @@ class Here {
 }  // namespace
 
 void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations, const fs::path& table) {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}) ::signal(number, note_stop);
-  ::signal(SIGPIPE, SIG_IGN);
+  heed_signals();
   const Descriptor lock = locked(table.parent_path());
   Here here(runs, at_once, variations, table);
   here.write();

@@ -38,7 +38,7 @@ int run(const RunArguments& arguments) {
   Loaded loaded = load_scene(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
-  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet);
+  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet, arguments.label);
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;
