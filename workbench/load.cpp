@@ -22,6 +22,14 @@ std::string shown(const Fault& fault) {
 }
 
 Loaded load_scene(const DeckArguments& arguments) {
+  Complaints complaints;
+  Loaded loaded = load_scene(arguments, complaints);
+  complaints.throw_if_any();
+  if (complaints.warnings() > 0) std::fprintf(stderr, "%s", complaints.text().c_str());
+  return loaded;
+}
+
+Loaded load_scene(const DeckArguments& arguments, Complaints& complaints) {
   std::vector<Override> overrides;
   for (const std::string& setting : arguments.settings) {
     const std::size_t equals = setting.find('=');
@@ -29,10 +37,9 @@ Loaded load_scene(const DeckArguments& arguments) {
       throw DeckFailure(fmt::format("error: --set wants name=value, got \"{}\"", setting));
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
-  Complaints complaints;
   Loaded loaded;
   loaded.deck = read_deck(arguments.path, overrides, complaints);
-  if (!loaded.deck) complaints.throw_if_any();
+  if (!loaded.deck) return loaded;
   std::vector<std::filesystem::path> extra;
   if (const Attribute* plugins = loaded.deck->root->find("plugins"))
     if (const auto paths = read_paths(*plugins, loaded.deck->scope, complaints))
@@ -45,8 +52,6 @@ Loaded load_scene(const DeckArguments& arguments) {
   extra.insert(extra.end(), arguments.libraries.begin(), arguments.libraries.end());
   loaded.catalogue = Catalogue::open(extra);
   loaded.scene = Scene::assemble(*loaded.deck, loaded.catalogue, complaints);
-  complaints.throw_if_any();
-  if (complaints.warnings() > 0) std::fprintf(stderr, "%s", complaints.text().c_str());
   return loaded;
 }
 

@@ -38,6 +38,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "error: out of memory\n");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
+  } catch (...) {
+    std::fprintf(stderr, "error: something was thrown that is no std::exception\n");
   }
   return static_cast<int>(ExitCode::machine);
 }

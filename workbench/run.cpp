@@ -1,11 +1,12 @@
 #include "core/loop/run.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "core/base/failure.hpp"
+#include "core/base/processors.hpp"
 #include "core/version.hpp"
 #include "workbench/progress.hpp"
 #include "workbench/run_log.hpp"
@@ -20,6 +21,8 @@ struct RunArguments {
   DeckArguments deck;
   std::string out, batch;
   Words words;
+  std::string label;  // of a run that a batch has started: stands before its lines
+  int tell = -1;      // socket that takes how far it has come; -1 if nobody asks
   bool overwrite = false, resume = false, quiet = false;
   int threads = 0;
   double checkpoint_minutes = 10;
@@ -36,16 +39,23 @@ std::string instructions_of(const Library& library) {
   return std::find(sets.begin(), sets.end(), folder) == sets.end() ? "baseline" : folder;
 }
 
+// A batch that does not listen, or is gone, does not hold the run up.
+void tell(int socket, const Headway& headway) {
+  if (socket < 0 || !headway.share || headway.work.starts_with("filling")) return;
+  const std::string text = fmt::format("{:.6f}", *headway.share);
+  ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+}
+
 int run(const RunArguments& arguments) {
   heed_signals();
   Loaded loaded = load_scene(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
-  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet);
+  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet, arguments.label);
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;
-  options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = arguments.threads > 0 ? arguments.threads : allowed_processors();
   options.resume = arguments.resume;
   options.commands = commands_of(arguments.words, arguments.batch);
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
@@ -58,7 +68,10 @@ int run(const RunArguments& arguments) {
     progress.hide();
     log->warn("warning: " + line);
   };
-  options.progress = [&](const Headway& headway) { progress.show(headway); };
+  options.progress = [&](const Headway& headway) {
+    progress.show(headway);
+    tell(arguments.tell, headway);
+  };
 
   log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
             loaded.catalogue.instructions(), arguments.out);
@@ -96,8 +109,10 @@ void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
-  verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
+  verb->add_option("--threads", arguments->threads, "Number of threads; as many as there are processors that it may use where absent")->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--label", arguments->label)->group("");  // these two are for batch
+  verb->add_option("--tell", arguments->tell)->group("");
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 

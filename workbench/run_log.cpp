@@ -28,13 +28,20 @@ class FileSink final : public spdlog::sinks::base_sink<std::mutex> {
   Descriptor file_;
 };
 
+std::string pattern_of(const std::string& label) {
+  if (label.empty()) return "%v";
+  std::string pattern = "[";
+  for (const char c : label) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  return pattern + "] %v";
+}
+
 }  // namespace
 
-std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet) {
+std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet, const std::string& label) {
   auto sink = std::make_shared<FileSink>(file, append);
   auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
   sink->set_pattern("%Y-%m-%d %H:%M:%S %l %v");
-  console->set_pattern("%v");
+  console->set_pattern(pattern_of(label));
   console->set_level(quiet ? spdlog::level::warn : spdlog::level::info);
   auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{sink, console});
   log->flush_on(spdlog::level::info);

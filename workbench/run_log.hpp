@@ -6,10 +6,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace beadwork {
 
-/// `quiet`: only warnings and errors on the terminal. MachineFailure if the file cannot be opened.
-std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet);
+/// `quiet`: only warnings and errors on the terminal. `label` stands before each line there, in brackets, where several runs share it.
+/// MachineFailure if the file cannot be opened.
+std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet, const std::string& label = "");
 
 }  // namespace beadwork

@@ -50,5 +50,7 @@ std::string shown(const Fault& fault);
 
 /// Throws DeckFailure with all complaints, or LibraryFailure. Warnings go to stderr.
 Loaded load_scene(const DeckArguments& arguments);
+/// What is wrong with the deck goes to `complaints`, warnings too; there is no scene then, and maybe no deck.
+Loaded load_scene(const DeckArguments& arguments, Complaints& complaints);
 
 }  // namespace beadwork

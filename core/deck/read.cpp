@@ -24,11 +24,12 @@ Dimension dimension_of(std::string_view unit) {
 /// Says what an attribute wants and what it got instead.
 class Refusal {
  public:
-  Refusal(const Attribute& attribute, std::string wanted, Complaints& complaints)
-      : attribute_(attribute), wanted_(std::move(wanted)), complaints_(complaints) {}
+  Refusal(const Attribute& attribute, std::string wanted, const Scope& scope, Complaints& complaints)
+      : attribute_(attribute), wanted_(std::move(wanted)), scope_(scope), complaints_(complaints) {}
 
   std::nullopt_t operator()(const std::string& behind = "", std::size_t at = 0) const {
-    const std::string got = trim(attribute_.value).empty() ? "nothing" : quoted(attribute_.value);
+    const bool of_the_text = behind.starts_with(":");  // how it is written, not what it gives
+    const std::string got = trim(attribute_.value).empty() ? "nothing" : quoted(of_the_text ? attribute_.value : shown_value(attribute_, scope_));
     complaints_.error(attribute_.place(at),
                       "'" + attribute_.name + "' wants " + wanted_ + ", got " + got + behind);
     return std::nullopt;
@@ -37,6 +38,7 @@ class Refusal {
  private:
   const Attribute& attribute_;
   std::string wanted_;
+  const Scope& scope_;
   Complaints& complaints_;
 };
 
@@ -76,6 +78,12 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, const
 
 }  // namespace
 
+std::string shown_value(const Attribute& attribute, const Scope& scope) {
+  Complaints ignored;
+  const auto text = text_of(attribute.value, attribute.value_at, scope, ignored);
+  return text ? *text : attribute.value;
+}
+
 std::string wanted_by(std::string_view unit) {
   struct Noun {
     const char *unit, *noun, *example;
@@ -96,7 +104,7 @@ std::string wanted_by(std::string_view unit) {
 
 std::optional<double> read_quantity(const Attribute& attribute, std::string_view unit, const Scope& scope,
                                     Complaints& complaints) {
-  const Refusal refuse(attribute, wanted_by(unit), complaints);
+  const Refusal refuse(attribute, wanted_by(unit), scope, complaints);
   const auto values = read_values(attribute, {unit}, scope, complaints, refuse);
   if (!values) return {};
   if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
@@ -106,13 +114,13 @@ std::optional<double> read_quantity(const Attribute& attribute, std::string_view
 std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
                                                    const Scope& scope, Complaints& complaints) {
   return read_values(attribute, {unit}, scope, complaints,
-                     Refusal(attribute, "values, each " + wanted_by(unit), complaints));
+                     Refusal(attribute, "values, each " + wanted_by(unit), scope, complaints));
 }
 
 std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view unit, const Scope& scope,
                                 Complaints& complaints) {
   const std::string example = dimension_of(unit).is_plain() ? "1 0 0" : "1 0 0 " + std::string(unit);
-  const Refusal refuse(attribute, "three values such as " + quoted(example), complaints);
+  const Refusal refuse(attribute, "three values such as " + quoted(example), scope, complaints);
   const auto values = read_values(attribute, {unit}, scope, complaints, refuse);
   if (!values) return {};
   if (values->size() != 3)
@@ -151,7 +159,7 @@ std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attri
     const std::string text = attribute.value.substr(begin, end - begin);
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
     const Attribute row{attribute.name, std::string(trim(text)), attribute.name_at, attribute.place(begin + first)};
-    const Refusal refuse(row, "rows such as " + quoted(join(example, " ")), complaints);
+    const Refusal refuse(row, "rows such as " + quoted(join(example, " ")), scope, complaints);
     auto values = read_values(row, in_turn, scope, complaints, refuse);
     const bool fits = values && values->size() == units.size();
     if (values && !fits) refuse(values->size() == 1 ? " which is one value" : " which are " + std::to_string(values->size()) + " values");
@@ -167,7 +175,7 @@ std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attri
 std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
                                          Complaints& complaints) {
   constexpr double largest = 9007199254740992.0;  // 2^53: up to here a double holds every whole number
-  const Refusal refuse(attribute, "a whole number", complaints);
+  const Refusal refuse(attribute, "a whole number", scope, complaints);
   const auto values = read_values(attribute, {"1"}, scope, complaints, refuse);
   if (!values) return {};
   if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
@@ -227,7 +235,7 @@ std::optional<std::string> read_choice(const Attribute& attribute, const std::ve
   for (const std::string& each : allowed)
     if (each == *text) return each;
   const std::string near = closest(*text, allowed);
-  return Refusal(attribute, join(allowed, " or "),
+  return Refusal(attribute, join(allowed, " or "), scope,
                  complaints)(near.empty() ? "" : ". Did you mean '" + near + "'?");
 }
 
@@ -236,7 +244,7 @@ std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
   if (!text) return {};
   if (*text == "yes" || *text == "true") return true;
   if (*text == "no" || *text == "false") return false;
-  return Refusal(attribute, "yes or no", complaints)();
+  return Refusal(attribute, "yes or no", scope, complaints)();
 }
 
 namespace {

@@ -49,6 +49,8 @@ std::optional<std::string> read_choice(const Attribute& attribute, const std::ve
 /// Paths as read_paths takes them.
 std::string text_of_paths(const std::vector<std::string>& paths);
 
+/// What a message says that an attribute holds: its text with every ${} replaced, or as it stands where that does not work.
+std::string shown_value(const Attribute& attribute, const Scope& scope);
 /// How a message names what a unit stands for: `a length such as "1 mm"`, `a plain number`.
 std::string wanted_by(std::string_view unit);
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/parallel.hpp"
+
 namespace beadwork {
 namespace {
 
@@ -211,11 +213,10 @@ struct Search {
     for (std::size_t from = 0; from < blocks; from += stretch) {
       pause();
       const std::size_t to = std::min(blocks, from + stretch);
-#pragma omp parallel for schedule(dynamic) if (blocks > 19)
-      for (std::size_t b = from; b < to; ++b) {
-        const std::size_t end = std::min(level.cells(), (b + 1) * block);
+      each_shared(to - from, [&](std::size_t k) {
+        const std::size_t b = from + k, end = std::min(level.cells(), (b + 1) * block);
         for (std::size_t cell = b * block; cell < end; ++cell) look(cell, found[base + b]);
-      }
+      }, 20);
     }
   }
 };
@@ -271,10 +272,11 @@ std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (const auto& part : found)
     for (const Pair& p : part) pairs[next[p.i]++] = p;
-#pragma omp parallel for schedule(static) if (elements > 20000)
-  for (std::size_t i = 0; i < elements; ++i)
+  const auto sort_those_of = [&](std::size_t i) {
     std::sort(pairs.begin() + std::ptrdiff_t(first[i]), pairs.begin() + std::ptrdiff_t(first[i + 1]),
               [](const Pair& a, const Pair& b) { return a.j < b.j; });
+  };
+  each_shared(elements, sort_those_of, 20001);
   return pairs;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/parallel.hpp"
+
 namespace beadwork {
 
 namespace {
@@ -24,8 +26,8 @@ std::vector<Index> elements_between(std::span<const Vec3> position, std::span<co
   for (std::size_t begin = 0; begin < pairs.size(); begin += stretch) {
     pause();
     const std::size_t end = std::min(pairs.size(), begin + stretch);
-#pragma omp parallel for schedule(static) if (pairs.size() > 5 * stretch)
-    for (std::size_t p = begin; p < end; ++p) {
+    each_shared(end - begin, [&](std::size_t step) {
+      const std::size_t p = begin + step;
       const auto i = static_cast<std::size_t>(pairs[p].i), j = static_cast<std::size_t>(pairs[p].j);
       const auto others = list.of(j);
       for (const Index k : list.of(i)) {
@@ -34,7 +36,7 @@ std::vector<Index> elements_between(std::span<const Vec3> position, std::span<co
         between[p] = k;
         break;
       }
-    }
+    }, pairs.size() > 5 * stretch ? 2 : stretch + 1);
   }
   return between;
 }

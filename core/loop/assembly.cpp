@@ -6,6 +6,7 @@
 
 #include "core/base/text.hpp"
 #include "core/deck/read.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/plugin/stamp.hpp"
 
 namespace beadwork {
@@ -42,7 +43,7 @@ std::unique_ptr<Scene> Scene::assemble(const Deck& deck, const Catalogue& catalo
 std::vector<Constraint> Stage::constraints() const {
   std::vector<Constraint> all;
   for (const Load* load : loads)
-    for (Constraint& c : load->constraints()) all.push_back(std::move(c));
+    for (Constraint& c : blaming(*load, "constraints", [&] { return load->constraints(); })) all.push_back(std::move(c));
   return all;
 }
 
@@ -74,8 +75,9 @@ void Assembly::run() {
   scene_.domain = std::make_unique<Domain>();
   read_root();
   if (complaints_.errors() == 0) {
-    for (const auto& plugin : scene_.plugins) plugin->check(complaints_);
-    for (const auto& plugin : scene_.plugins) plugin->choose();
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "family", [&] { return plugin->family(); });
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "check", [&] { plugin->check(complaints_); });
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "choose", [&] { plugin->choose(); });
   }
   merge_common_into_stages();
   check_names();
@@ -84,7 +86,8 @@ void Assembly::run() {
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
   if (!unknown_load_) complain_of_hopeless();
   if (complaints_.errors() == 0) {  // else a law or a load may be missing that is only misspelt
-    for (const Stage& stage : scene_.stages) stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_);
+    for (const Stage& stage : scene_.stages)
+      blaming(stage.mover(), "check_stage", [&] { stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_); });
     check_watchers();
   }
   deck_.scope.complain_about_unused(complaints_);
@@ -147,7 +150,7 @@ void Assembly::read_sections(const Node& parent, Stage& stage, bool inside_stage
 
 void Assembly::read_section(Kind kind, const Node& section, Stage& stage) {
   for (const auto& node : section.children) {
-    std::unique_ptr<Plugin> plugin = make(kind, node->tag);
+    std::unique_ptr<Plugin> plugin = make(kind, node->tag, node->at);
     if (!plugin) {
       unknown_load_ |= kind == Kind::load;
       complain_of_tag(kind, *node);
@@ -161,9 +164,9 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage) {
   }
 }
 
-std::unique_ptr<Plugin> Assembly::make(Kind kind, const std::string& tag) {
+std::unique_ptr<Plugin> Assembly::make(Kind kind, const std::string& tag, const Location& at) {
   if (const std::string library = catalogue_.named_library(kind, tag); !library.empty()) libraries_.insert(library);
-  return catalogue_.make(kind, tag);
+  return catalogue_.make(kind, tag, at.where());
 }
 
 void Assembly::complain_of_tag(Kind kind, const Node& node) {
@@ -217,7 +220,10 @@ void Assembly::check_stage(Stage& stage) {
 }
 
 void Assembly::check_watchers() {
-  for (const Watcher* watcher : watchers()) watcher->check_stages(constraints_seen_by(*watcher), complaints_);
+  for (const Watcher* watcher : watchers()) {
+    const auto seen = constraints_seen_by(*watcher);
+    blaming(*watcher, "check_stages", [&] { watcher->check_stages(seen, complaints_); });
+  }
 }
 
 std::vector<Constraint> Assembly::constraints_seen_by(const Watcher& watcher) const {

@@ -20,7 +20,7 @@ class Assembly {
   void read_root();
   void read_sections(const Node& parent, Stage& stage, bool inside_stage);
   void read_section(Kind kind, const Node& section, Stage& stage);
-  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag);
+  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag, const Location& at);
   void complain_of_tag(Kind kind, const Node& node);
   void enlist(Plugin& plugin, Kind kind, Stage& stage);
   void merge_common_into_stages();

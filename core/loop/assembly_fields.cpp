@@ -26,7 +26,7 @@ void Assembly::choose_rotations() {
                 (use->field().name == "orientation" || use->field().name == "torque" || use->field().name == "spin");
   }
   for (const auto& plugin : scene_.plugins)
-    if (auto* mover = dynamic_cast<Mover*>(plugin.get())) mover->choose_rotations(wanted);
+    if (auto* mover = dynamic_cast<Mover*>(plugin.get())) blaming(*mover, "choose_rotations", [&] { mover->choose_rotations(wanted); });
 }
 
 void Assembly::add_families() {
@@ -175,7 +175,7 @@ bool Assembly::derive(const std::string& name, const Plugin& reader) {
       scene_.derived_for[there].insert(readers.begin(), readers.end());
       return true;
     }
-  std::unique_ptr<Plugin> plugin = make(Kind::derive, name);
+  std::unique_ptr<Plugin> plugin = make(Kind::derive, name, reader.at());
   Node silent;
   silent.tag = name;
   silent.at = deck_.root->at;

@@ -8,6 +8,7 @@
 #include "core/base/failure.hpp"
 #include "core/domain/neighbours.hpp"
 #include "core/domain/reach.hpp"
+#include "core/plugin/blame.hpp"
 
 namespace beadwork {
 
@@ -55,7 +56,7 @@ Candidates candidates(const BondLaw& law, const Domain& domain, const Pause& pau
     const Index i = among.row(near.i), j = among.row(near.j);
     const auto at_i = static_cast<std::size_t>(i), at_j = static_cast<std::size_t>(j);
     const bool joins = (one[at_i] && other[at_j]) || (one[at_j] && other[at_i]);
-    if (joins && law.accepts(domain, i, j)) among.pairs.push_back(near);
+    if (joins && blaming(law, "accepts", [&] { return law.accepts(domain, i, j); })) among.pairs.push_back(near);
   }
   return among;
 }

@@ -1,12 +1,12 @@
 #include "core/loop/run.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <set>
 
 #include "core/base/failure.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/sha256.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/handed_over.hpp"
@@ -24,7 +24,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       began_(Clock::now()),
       saved_(began_),
       shown_(began_) {
-  omp_set_num_threads(options_.threads);
+  use_threads(options_.threads);
   for (const std::string& path : scene_.files()) files_[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
   for (const Stage& stage : scene_.stages)
     for (const Failure* failure : stage.failures)
@@ -127,7 +127,7 @@ void Run::connect(Stage& stage) {
   for (auto& [law, table] : laws_) {
     if (scene_.first_stage(*law) != stage_number()) continue;
     blaming(*law, moment_, [&, law = law, table = table] { law->connect(domain(), *table); });
-    const std::string remark = law->remark();
+    const std::string remark = blaming(*law, "remark", [&, law = law] { return law->remark(); });
     options_.say(fmt::format("bond family '{}': {} bonds{}{}", law->family(), table->size(), remark.empty() ? "" : "; ", remark));
   }
   for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->clear(domain()); });
@@ -212,10 +212,11 @@ bool Run::reads_rates(const Stage& stage) const {
 // Changes that a law itself has made while settling, such as a contact that opened.
 void Run::log_events() {
   for (auto& [law, table] : laws_) {
-    if (law->events().empty()) continue;
+    const auto events = blaming(*law, moment_, [&, law = law] { return law->events(); });
+    if (events.empty()) continue;
     BreakLog& log = domain().breaks();
     const auto x = domain().elements().column("position").view<Vec3>();
-    for (const BondEvent& event : law->events()) {
+    for (const BondEvent& event : events) {
       check_rows({&event.row, 1}, table->size(), "bonds that changed", *law, moment_);
       const Vec3 place = 0.5 * (x[table->first()[event.row]] + x[table->second()[event.row]]);
       log.breaks.push_back({moment_.time, moment_.step, static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin()),
@@ -249,11 +250,11 @@ void Run::break_bonds() {
     const auto family = static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin());
     for (const Index row : verdict.fallen) {
       if (table->state()[row] == State::broken) continue;
-      const Real energy = law->stored_energy(domain(), *table, row);
+      const Real energy = blaming(*law, moment_, [&, law = law, table = table] { return law->stored_energy(domain(), *table, row); });
       const Vec3 place = 0.5 * (x[table->first()[row]] + x[table->second()[row]]);
-      log.breaks.push_back({moment_.time, moment_.step, family, table->id()[row], log.mode(failure->mode()), place, energy});
+      log.breaks.push_back({moment_.time, moment_.step, family, table->id()[row], log.mode(blaming(*failure, moment_, [&, failure = failure] { return failure->mode(); })), place, energy});
       released_[table] += energy;
-      law->withdraw(domain(), *table, row);
+      blaming(*law, moment_, [&, law = law, table = table] { law->withdraw(domain(), *table, row); });
       table->state()[row] = State::broken;
       offered_.clear(*table, row);
       touched.insert(table);
@@ -340,7 +341,7 @@ void Run::offer() {
 // For its cadence, or at a moment of its 'at' that has not had its look.
 bool Run::due(std::size_t watcher) const {
   const Stage& now = scene_.stages[stage_number()];
-  if (now.watchers[watcher]->wants(moment_)) return true;
+  if (blaming(*now.watchers[watcher], moment_, [&] { return now.watchers[watcher]->wants(moment_); })) return true;
   const auto& marks = now.marks[watcher];
   for (std::size_t k = 0; k < marks.size(); ++k)
     if (looked_[stage_number()][watcher][k] == 0 && marks[k].reached(moment_, constraints())) return true;

@@ -6,6 +6,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/domain/order.hpp"
+#include "core/loop/blame.hpp"
 #include "core/loop/connect.hpp"
 #include "core/loop/handed_over.hpp"
 #include "core/loop/run.hpp"
@@ -25,10 +26,10 @@ void Run::fill() {
   for (Filler* filler : scene_.fillers) {
     pause();
     if (filler->after_filling()) continue;
-    filler->fill(domain(), job);
+    blaming(*filler, "fill", [&] { filler->fill(domain(), job); });
     check_elements(*filler, domain());
   }
-  for (Filler* filler : scene_.fillers) filler->conclude(job);
+  for (Filler* filler : scene_.fillers) blaming(*filler, "conclude", [&] { filler->conclude(job); });
   if (domain().size() == 0)
     throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene_.deck_path));
 
@@ -39,7 +40,7 @@ void Run::fill() {
   bind_all();
   for (Filler* filler : scene_.fillers) {
     if (!filler->after_filling()) continue;
-    filler->fill(domain(), job);
+    blaming(*filler, "fill", [&] { filler->fill(domain(), job); });
     check_elements(*filler, domain());
   }
   check_constraints();

@@ -80,8 +80,12 @@ std::string summary_json(const Scene& scene, const FileSums& files, const RunFig
   json["bond_updates"] = figures.bond_updates;
   json["bond_updates_per_second"] = figures.loop_seconds > 0 ? figures.bond_updates / figures.loop_seconds : 0;
   Terms terms;
-  sight.energies(terms);
-  json["energy"] = terms.json(sight.initial_energy());
+  try {
+    sight.energies(terms);
+    json["energy"] = terms.json(sight.initial_energy());
+  } catch (const PhysicsFailure&) {
+    if (figures.status != "failed") throw;  // of a plugin that failed the energies need not be known
+  }
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;

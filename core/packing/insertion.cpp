@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/parallel.hpp"
+
 namespace beadwork::packing {
 namespace {
 
@@ -132,8 +134,7 @@ void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRul
       candidate.push_back({point_in(region, random_unit(random), r), r});
     }
     free.assign(count, 0);
-#pragma omp parallel for schedule(static) if (count == block)
-    for (std::size_t k = 0; k < count; ++k) free[k] = fits(candidate[k]);
+    each_shared(count, [&](std::size_t k) { free[k] = fits(candidate[k]); }, block);
     for (std::size_t k = 0; k < count; ++k) {
       rule.pause();
       const bool found = failed < rule.tries && free[k] && fits(candidate[k]);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/parallel.hpp"
 #include "core/packing/blocks.hpp"
 #include "core/packing/crowd.hpp"
 #include "core/packing/even_points.hpp"
@@ -162,15 +163,19 @@ Real density_in_bulk(const Packing& packing, Real margin) {
   for (std::size_t k = 0; k < packing.around.radius.size(); ++k)
     obstacles.add_obstacle({packing.around.position[k], packing.around.radius[k]});
   const Region inner = shrunk(packing.region, margin);
-  std::uint64_t counted = 0, filled = 0;
-#pragma omp parallel for schedule(static) reduction(+ : counted, filled)
-  for (std::uint64_t k = 0; k < points; ++k) {
-    const Vec3 x = point_in(inner, even_point(k));
-    if (!obstacles.clear_of_obstacles(x, margin)) continue;
-    ++counted;
-    filled += elements.clearance({x, 0}, 0) < 0;
-  }
-  return counted ? Real(filled) / Real(counted) : 0;
+  struct Hits {
+    std::uint64_t counted = 0, filled = 0;
+    Hits& operator+=(const Hits& more) { return counted += more.counted, filled += more.filled, *this; }
+  };
+  const auto hits = sum_shared<Hits>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, Hits& sum) {
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const Vec3 x = point_in(inner, even_point(k));
+      if (!obstacles.clear_of_obstacles(x, margin)) continue;
+      ++sum.counted;
+      sum.filled += elements.clearance({x, 0}, 0) < 0;
+    }
+  });
+  return hits.counted ? Real(hits.filled) / Real(hits.counted) : 0;
 }
 
 Packing packing_of(const Region& region, const Dispersion& dispersion, std::vector<Vec3> position,

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/base/memory.hpp"
+#include "core/base/parallel.hpp"
 #include "core/domain/domain.hpp"
 #include "core/packing/even_points.hpp"
 #include "core/packing/insertion.hpp"
@@ -36,11 +37,9 @@ Real share_clear(const Region& region, const Obstacles& around, Real margin) {
   InsertionGrid grid(region, std::max(margin, inradius(region) / 20));
   for (std::size_t k = 0; k < around.position.size(); ++k)
     grid.add_obstacle({around.position[k], around.radius[k]});
-  std::uint64_t clear = 0;
-#pragma omp parallel for schedule(static) reduction(+ : clear)
-  for (std::uint64_t k = 0; k < points; ++k) {
-    clear += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
-  }
+  const auto clear = sum_shared<std::uint64_t>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, std::uint64_t& sum) {
+    for (std::uint64_t k = begin; k < end; ++k) sum += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
+  });
   return Real(clear) / Real(points);
 }
 

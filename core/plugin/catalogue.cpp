@@ -8,6 +8,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/plugin/blame.hpp"
 
 namespace beadwork {
 
@@ -70,9 +71,14 @@ const PluginEntry* Catalogue::find(Kind kind, const std::string& tag) const {
   return found == entries_.end() ? nullptr : &found->second.entry;
 }
 
-std::unique_ptr<Plugin> Catalogue::make(Kind kind, const std::string& tag) const {
+std::unique_ptr<Plugin> Catalogue::make(Kind kind, const std::string& tag, const std::string& at) const {
   const PluginEntry* found = find(kind, tag);
-  return found ? found->make() : nullptr;
+  if (!found) return nullptr;
+  try {
+    return found->make();
+  } catch (...) {
+    blame(fmt::format("{}error: plugin {}.{} of {} failed in its constructor", at.empty() ? "" : at + ": ", kind_name(kind), tag, library_of(kind, tag)));
+  }
 }
 
 std::vector<std::string> Catalogue::tags(Kind kind) const {

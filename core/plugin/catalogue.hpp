@@ -21,7 +21,8 @@ class Catalogue {
   void add(Library library);
 
   const PluginEntry* find(Kind kind, const std::string& tag) const;
-  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag) const;
+  /// `at` names the place in the deck, if there is one, should its constructor throw.
+  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag, const std::string& at = "") const;
   std::vector<std::string> tags(Kind kind) const;
   /// Every kind in which this tag is known.
   std::vector<Kind> kinds_of(const std::string& tag) const;

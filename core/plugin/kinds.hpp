@@ -12,6 +12,7 @@
 #include "core/base/parallel.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/mechanics/stiffness.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/plugin/plugin.hpp"
 
 namespace beadwork {
@@ -145,7 +146,13 @@ struct Constraint {
   Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
   Real work = 0;                                 ///< of these forces so far [J]
 
-  PrescribedMotion at(Real time) const { return motion(time - began); }
+  PrescribedMotion at(Real time) const {
+    try {
+      return motion(time - began);
+    } catch (...) {
+      blame("error: plugin " + by + " failed in the motion that it prescribes");
+    }
+  }
 };
 
 class Load : public Plugin {

@@ -31,10 +31,10 @@ std::string si(Real value, const std::string& unit) {
 
 std::string absolute(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
-bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, Complaints& complaints) {
+bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, const Scope& scope, Complaints& complaints) {
   if (info.range.holds(value)) return true;
   complaints.error(attribute.value_at, fmt::format("'{}' must be {}, got \"{}\"", info.name,
-                                                   info.range.text(info.unit), attribute.value));
+                                                   info.range.text(info.unit), shown_value(attribute, scope)));
   return false;
 }
 
@@ -46,18 +46,18 @@ bool keep_if(std::optional<R> read, T& value) {
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Real& value) {
-  return keep_if(read_quantity(a, info.unit, scope, c), value) && in_range(value, info, a, c);
+  return keep_if(read_quantity(a, info.unit, scope, c), value) && in_range(value, info, a, scope, c);
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Vec3& value) {
   if (!keep_if(read_vector(a, info.unit, scope, c), value)) return false;
   for (int axis = 0; axis < 3; ++axis)
-    if (!in_range(value[axis], info, a, c)) return false;
+    if (!in_range(value[axis], info, a, scope, c)) return false;
   return true;
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, std::int64_t& value) {
-  return keep_if(read_integer(a, scope, c), value) && in_range(static_cast<Real>(value), info, a, c);
+  return keep_if(read_integer(a, scope, c), value) && in_range(static_cast<Real>(value), info, a, scope, c);
 }
 
 bool take_value(const ParamInfo&, const Attribute& a, const Scope& scope, Complaints& c, bool& value) {
@@ -75,7 +75,7 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
                 std::vector<std::string>& value) {
   if (!keep_if(info.role == Role::file ? read_paths(a, scope, c) : read_words(a, scope, c), value)) return false;
   if (info.count > 0 && static_cast<int>(value.size()) != info.count) {
-    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), a.value));
+    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), shown_value(a, scope)));
     return false;
   }
   if (info.choices.empty()) return true;
@@ -98,11 +98,11 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
   const bool condition = value.expression->is_condition();
   if (info.unit.empty()) {
     if (condition) return true;
-    c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, a.value));
+    c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, shown_value(a, scope)));
     return false;
   }
   if (!condition && value.expression->dimension() == find_unit(info.unit)->dimension) return true;
-  c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), a.value,
+  c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), shown_value(a, scope),
                                   condition ? "a condition" : value.expression->dimension().name()));
   return false;
 }

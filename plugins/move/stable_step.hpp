@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <iterator>
 #include <limits>
 
+#include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/stability.hpp"
 #include "core/plugin/kinds.hpp"
@@ -58,15 +58,7 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
       network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
     }
   };
-  std::vector<std::exception_ptr> failed(parts.size());  // nothing may be thrown across the end of a parallel region
-#pragma omp parallel for schedule(dynamic) if (parts.size() > 1)
-  for (std::size_t p = 0; p < parts.size(); ++p) try {
-      ask(parts[p]);
-    } catch (...) {
-      failed[p] = std::current_exception();
-    }
-  for (const std::exception_ptr& failure : failed)
-    if (failure) std::rethrow_exception(failure);
+  each_shared(parts.size(), [&](std::size_t p) { ask(parts[p]); });
   if (network.bonds() == 0) return {};
   const StableStep found = stable_step(network, mobility, 1);
   StepLimit limit{found.dt, ""};

@@ -374,7 +374,7 @@ TEST_F(AValue, that_is_not_what_is_wanted_is_refused_in_words) {
   EXPECT_FALSE(quantity("3 GPA", "Pa"));
   EXPECT_EQ(said(), "13: 'value' wants Pa, got \"3 GPA\": unknown unit \"GPA\". Did you mean \"GPa\"?");
   EXPECT_FALSE(quantity("${n}", "m"));
-  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"${n}\" which is a plain number");
+  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"3\" which is a plain number");
   EXPECT_FALSE(quantity("1 2 mm", "m"));
   EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"1 2 mm\" which are 2 values");
   EXPECT_FALSE(quantity("${side} mm", "m"));

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/domain/neighbours.hpp"
 #include "core/domain/order.hpp"
@@ -121,11 +121,11 @@ TEST(Neighbours, takes_an_empty_cloud_and_a_single_element) {
 
 TEST(Neighbours, gives_the_same_list_for_any_number_of_threads) {
   const Cloud c = cloud(60000, 40, 0.3, 0.6, 5);
-  omp_set_num_threads(1);
+  use_threads(1);
   const auto alone = find_pairs(c.position, c.radius, 0.1);
-  omp_set_num_threads(3);
+  use_threads(3);
   const auto together = find_pairs(c.position, c.radius, 0.1);
-  omp_set_num_threads(omp_get_num_procs());
+  use_threads(2);
   EXPECT_EQ(alone, together);
 }
 

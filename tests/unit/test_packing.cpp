@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/domain/neighbours.hpp"
 #include "core/packing/blocks.hpp"
@@ -291,7 +291,7 @@ TEST(Packing, is_the_same_to_the_bit_with_any_number_of_threads) {
   start.waiting.clear();
   ASSERT_GT(start.position.size(), worth_sharing);
   const auto run = [&start](int threads) {
-    omp_set_num_threads(threads);
+    use_threads(threads);
     Packing p = start;
     std::vector<Index> order;
     Crowd crowd = crowd_of(p, order);
@@ -303,7 +303,7 @@ TEST(Packing, is_the_same_to_the_bit_with_any_number_of_threads) {
     return p;
   };
   const Packing alone = run(1), together = run(2), three = run(3);
-  omp_set_num_threads(omp_get_num_procs());
+  use_threads(2);
   EXPECT_EQ(alike(alone, start), 0u);
   EXPECT_EQ(alike(alone, together), start.position.size());
   EXPECT_EQ(alike(alone, three), start.position.size());

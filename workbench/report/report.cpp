@@ -8,13 +8,12 @@
 namespace beadwork {
 namespace report {
 
-namespace {
-
-/// The class decides the badge's colour; a status that nobody foresaw is shown as it is, in grey.
 std::string badge(const std::string& status) {
   const bool known = status == "done" || status == "failed" || status == "interrupted";
   return "<span class=\"badge " + std::string(known ? status : "other") + "\">" + escaped(status) + "</span>";
 }
+
+namespace {
 
 std::string header(const Run& run) {
   std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status);
@@ -29,9 +28,11 @@ std::string notes(const Run& run) {
   return items.empty() ? "" : "<section class=\"notes\"><ul>" + items + "</ul></section>\n";
 }
 
-/// Replaces @name@ in the template. What is put in is not searched again, so a deck may hold @title@.
-std::string filled(std::string_view page, const std::string& title, const std::string& head,
-                   const std::string& body) {
+}  // namespace
+
+// Replaces @name@ in the template. What is put in is not searched again, so a deck may hold @title@.
+std::string page_with(const std::string& title, const std::string& head, const std::string& body) {
+  std::string_view page = page_template;
   std::string out;
   while (!page.empty()) {
     const auto start = page.find('@');
@@ -47,6 +48,8 @@ std::string filled(std::string_view page, const std::string& title, const std::s
   }
   return out;
 }
+
+namespace {
 
 /// A part of the page; where it cannot be made, the page says so and has the others.
 template <class Make>
@@ -70,7 +73,7 @@ std::string page_of(Run& run, const std::string& view) {
   body += attempt(run, "The breaks", [&] { return breaks(run); });
   body += attempt(run, "The packing", [&] { return packing(run); });
   body += attempt(run, "Deck and log", [&] { return deck_and_log(run); });
-  return filled(page_template, escaped(run.scene) + " – Beadwork", header(run), notes(run) + body);
+  return page_with(escaped(run.scene) + " – Beadwork", header(run), notes(run) + body);
 }
 
 }  // namespace
