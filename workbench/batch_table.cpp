@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -20,8 +21,10 @@ Json summary_of(const BatchRun& run) {
   return json.is_object() ? json : Json::object();
 }
 
+std::string text(const Json& json, const char* key) { return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : ""; }
+
 std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"') quoted += '"';
@@ -35,43 +38,68 @@ std::string number(const Json& json, const char* key) {
 }
 
 std::string breaks(const Json& summary) {
-  if (!summary.contains("breaks")) return "";
-  long count = 0;
-  for (const auto& each : summary["breaks"]) count += each.get<long>();
+  if (!summary.contains("breaks") || !summary["breaks"].is_object()) return "";
+  std::int64_t count = 0;
+  for (const auto& each : summary["breaks"])
+    if (each.is_number_integer()) count += each.get<std::int64_t>();
   return std::to_string(count);
 }
 
 std::string status_of(const BatchRun& run, const Json& summary) {
-  if (run.code >= 0 && run.code != 0 && summary.value("status", "") == "running") return "failed";  // it could not say so
-  return summary.value("status", run.code < 0 ? "waiting" : "failed");
+  if (run.refused) return "refused";
+  const std::string said = text(summary, "status");
+  if (run.code > 0 && said == "running") return "failed";  // it could not say so
+  return !said.empty() ? said : run.code < 0 ? "waiting" : "failed";
+}
+
+// Columns in the order in which the runs first have them, those of one run together.
+std::vector<std::string> columns_of(const std::vector<BatchRun>& runs) {
+  std::vector<std::string> columns;
+  for (const BatchRun& run : runs) {
+    auto behind = columns.begin();
+    for (const auto& [name, value] : run.results) {
+      const auto there = std::find(columns.begin(), columns.end(), name);
+      behind = there != columns.end() ? there + 1 : columns.insert(behind, name) + 1;
+    }
+  }
+  return columns;
 }
 
 }  // namespace
 
-bool is_done(const BatchRun& run, const std::string& deck_sha256) {
+bool is_done(const BatchRun& run) {
   const Json summary = summary_of(run);
-  if (summary.value("status", "") != "done") return false;
-  if (summary.value("deck_sha256", "") == deck_sha256) return true;
+  if (text(summary, "status") != "done") return false;
+  if (text(summary, "deck_sha256") == run.deck_sha256) return true;
   throw DeckFailure(fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
                                 run.folder.string()));
 }
 
 bool can_resume(const BatchRun& run) {
-  return std::filesystem::exists(run.folder / "checkpoint.h5") && summary_of(run).value("status", "") != "failed";
+  std::error_code error;
+  return std::filesystem::exists(run.folder / "checkpoint.h5", error) && text(summary_of(run), "status") != "failed";
 }
 
 std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs) {
-  std::string text = "run";
-  for (const Variation& variation : variations) text += "," + field(variation.name);
-  text += ",status,elements,steps,time [s],breaks,wall_seconds [s],exit_reason\n";
+  const std::vector<std::string> columns = columns_of(runs);
+  std::string table = "run";
+  for (const Variation& variation : variations) table += "," + field(variation.name);
+  table += ",status,elements,steps,time [s],breaks,wall_seconds [s],exit_reason";
+  for (const std::string& column : columns) table += "," + field(column);
+  table += "\n";
   for (const BatchRun& run : runs) {
-    const Json summary = summary_of(run);
-    text += field(run.name);
-    for (const std::string& value : run.values) text += "," + field(value);
-    text += fmt::format(",{},{},{},{},{},{},{}\n", status_of(run, summary), number(summary, "elements"), number(summary, "steps"),
-                        number(summary, "time"), breaks(summary), number(summary, "wall_seconds"), field(summary.value("exit_reason", "")));
+    const Json summary = run.refused ? Json::object() : summary_of(run);
+    table += field(run.name);
+    for (const std::string& value : run.values) table += "," + field(value);
+    table += fmt::format(",{},{},{},{},{},{},{}", status_of(run, summary), number(summary, "elements"), number(summary, "steps"),
+                         number(summary, "time"), breaks(summary), number(summary, "wall_seconds"), field(text(summary, "exit_reason")));
+    for (const std::string& column : columns) {
+      const auto found = std::find_if(run.results.begin(), run.results.end(), [&](const auto& result) { return result.first == column; });
+      table += "," + (found == run.results.end() ? "" : field(found->second));
+    }
+    table += "\n";
   }
-  return text;
+  return table;
 }
 
 }  // namespace beadwork

@@ -28,18 +28,18 @@ namespace {
 std::vector<std::filesystem::path> named_libraries(const Deck& deck, bool none, Complaints& complaints) {
   const Attribute* named = deck.root->find("plugins");
   if (!named) return {};
-  const auto words = read_words(*named, deck.scope, complaints);
-  if (!words) return {};
+  const auto paths = read_paths(*named, deck.scope, complaints);
+  if (!paths) return {};
   if (none) {
     complaints.warning(named->value_at, "these libraries are not loaded (--no-plugins), so their plugins are unknown");
     return {};
   }
   std::vector<std::filesystem::path> libraries;
-  for (const std::string& word : *words) {
-    const std::string path = path_beside(deck.path, word), why = why_unreachable(path);
+  for (const std::string& path : *paths) {
+    const std::string why = why_unreachable(path);
     std::error_code error;
     if (std::filesystem::status(path, error).type() == std::filesystem::file_type::not_found)
-      throw LibraryFailure(fmt::format("{}: error: no plugin library \"{}\": there is no file {}", named->value_at.where(), word, path));
+      throw LibraryFailure(fmt::format("{}: error: no plugin library: there is no file {}", named->value_at.where(), path));
     if (!why.empty()) refuse(named->value_at, fmt::format("cannot read plugin library \"{}\": {}", path, why));
     libraries.emplace_back(path);
   }
@@ -49,6 +49,14 @@ std::vector<std::filesystem::path> named_libraries(const Deck& deck, bool none, 
 }  // namespace
 
 Loaded load_scene(const DeckArguments& arguments) {
+  Complaints complaints;
+  Loaded loaded = load_scene(arguments, complaints);
+  complaints.throw_if_any();
+  if (complaints.warnings() > 0) write_error(complaints.text());
+  return loaded;
+}
+
+Loaded load_scene(const DeckArguments& arguments, Complaints& complaints) {
   std::vector<Override> overrides;
   for (const std::string& setting : arguments.settings) {
     const std::size_t equals = setting.find('=');
@@ -56,16 +64,13 @@ Loaded load_scene(const DeckArguments& arguments) {
       throw DeckFailure(fmt::format("error: --set wants name=value, got \"{}\"", setting));
     overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
   }
-  Complaints complaints;
   Loaded loaded;
   loaded.deck = read_deck(arguments.path, overrides, complaints);
-  if (!loaded.deck) complaints.throw_if_any();
+  if (!loaded.deck) return loaded;
   std::vector<std::filesystem::path> extra = named_libraries(*loaded.deck, arguments.no_plugins, complaints);
   extra.insert(extra.end(), arguments.libraries.begin(), arguments.libraries.end());
   loaded.catalogue = Catalogue::open(extra);
   loaded.scene = Scene::assemble(*loaded.deck, loaded.catalogue, complaints);
-  complaints.throw_if_any();
-  if (complaints.warnings() > 0) write_error(complaints.text());
   return loaded;
 }
 

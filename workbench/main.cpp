@@ -2,24 +2,27 @@
 
 #include "core/base/failure.hpp"
 #include "core/version.hpp"
+#include "workbench/signals.hpp"
 #include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 using namespace beadwork;
 
 int main(int argc, char** argv) {
+  hold_standard_streams();
   CLI::App app{"Beadwork: a workbench for the discrete element method of bonded solids", "beadwork"};
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done, 2 deck, 3 physics or a plugin's failure, 4 plugin library, 5 interrupted and resumable, 1 anything else");
   std::function<int()> chosen;
-  add_run(app, chosen);
+  const Words words(argv, argv + argc);
+  add_run(app, chosen, words);
   add_check(app, chosen);
   add_report(app, chosen);
   add_describe(app, chosen);
   add_plan(app, chosen);
   add_new(app, chosen);
-  add_batch(app, chosen);
+  add_batch(app, chosen, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -39,6 +42,8 @@ int main(int argc, char** argv) {
     if (is_no_path) return static_cast<int>(ExitCode::deck);
   } catch (const std::exception& error) {
     say_error("error: {}\n", error.what());
+  } catch (...) {
+    write_error("error: something was thrown that is no std::exception\n");
   }
   return static_cast<int>(ExitCode::machine);
 }

@@ -1,76 +1,64 @@
 #include "core/loop/run.hpp"
 
-#include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/basic_file_sink.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
-#include <atomic>
-#include <csignal>
-#include <thread>
+#include <algorithm>
 
 #include "core/base/failure.hpp"
+#include "core/base/processors.hpp"
 #include "core/base/text.hpp"
-#include "core/base/utf8.hpp"
 #include "core/version.hpp"
 #include "workbench/progress.hpp"
+#include "workbench/run_log.hpp"
+#include "workbench/signals.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
 
 namespace {
 
-std::atomic<int> interrupted{0};
-
-void note_signal(int number) { interrupted = number; }
-
 struct RunArguments {
   DeckArguments deck;
-  std::string out;
+  std::string out, batch;
+  Words words;
+  std::string label;  // of a run that a batch has started: stands before its lines
+  int tell = -1;      // socket that takes how far it has come; -1 if nobody asks
   bool overwrite = false, resume = false, quiet = false;
   int threads = 0;
   double checkpoint_minutes = 10;
 };
 
-// The words of a line, fit for a terminal and a file, whoever said them.
-class SafeWords final : public spdlog::custom_flag_formatter {
- public:
-  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
-    const std::string safe = safe_text({message.payload.data(), message.payload.size()});
-    out.append(safe.data(), safe.data() + safe.size());
-  }
-  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<SafeWords>(); }
-};
-
-std::unique_ptr<spdlog::formatter> line_format(const std::string& pattern) {
-  auto format = std::make_unique<spdlog::pattern_formatter>();
-  format->add_flag<SafeWords>('*').set_pattern(pattern);
-  return format;
+// For who looks at the run later; the terminal stays short.
+void note_in_file(const spdlog::logger& log, const std::string& line) {
+  log.sinks().front()->log({log.name(), spdlog::level::info, line});
 }
 
-std::shared_ptr<spdlog::logger> make_log(const RunFolder& folder, const RunArguments& arguments) {
-  auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !arguments.resume);
-  auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-  file->set_formatter(line_format("%Y-%m-%d %H:%M:%S %l %*"));
-  console->set_formatter(line_format("%*"));
-  console->set_level(arguments.quiet ? spdlog::level::warn : spdlog::level::info);
-  auto log = std::make_shared<spdlog::logger>("run", spdlog::sinks_init_list{file, console});
-  log->flush_on(spdlog::level::info);
-  return log;
+std::string instructions_of(const Library& library) {
+  const auto sets = instruction_sets();
+  const std::string folder = library.path.parent_path().filename().string();
+  return std::find(sets.begin(), sets.end(), folder) == sets.end() ? "baseline" : folder;
+}
+
+// A batch that does not listen, or is gone, does not hold the run up.
+void tell(int socket, const Headway& headway) {
+  if (socket < 0 || !headway.share || headway.work.starts_with("filling")) return;
+  const std::string text = fmt::format("{:.6f}", *headway.share);
+  ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 int run(const RunArguments& arguments) {
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
+  heed_signals();
   Loaded loaded = load_scene(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
-  const auto log = make_log(folder, arguments);
+  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet, arguments.label);
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;
-  options.threads = arguments.threads > 0 ? arguments.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  options.threads = arguments.threads > 0 ? arguments.threads : allowed_processors();
   options.resume = arguments.resume;
+  options.commands = commands_of(arguments.words, arguments.batch);
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.interrupt = &interrupted;
   options.say = [&](const std::string& line) {
@@ -81,11 +69,15 @@ int run(const RunArguments& arguments) {
     progress.hide();
     log->warn("warning: " + line);
   };
-  options.progress = [&](const Headway& headway) { progress.show(headway); };
+  options.progress = [&](const Headway& headway) {
+    progress.show(headway);
+    tell(arguments.tell, headway);
+  };
 
   log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
             loaded.catalogue.instructions(), arguments.out);
-  for (const Library& library : loaded.catalogue.libraries()) log->debug("plugins: {} ({})", library.path.string(), library.version);
+  for (const Library& library : loaded.catalogue.libraries())
+    note_in_file(*log, fmt::format("plugins: {}, {} instructions, built for {}", library.path.string(), instructions_of(library), library.version));
   Run job(*loaded.scene, loaded.catalogue, folder, options);
   try {
     job.all();
@@ -107,7 +99,7 @@ int run(const RunArguments& arguments) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Chosen& chosen) {
+void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   const CLI::Validator minutes(
       [](const std::string& text) {
         const auto number = parse_number(text);
@@ -117,13 +109,17 @@ void add_run(CLI::App& app, Chosen& chosen) {
   CLI::App* verb = app.add_subcommand("run", "Runs a deck");
   verb->footer("Example: beadwork run xml-cases/dcb/quick.xml --out out/dcb --threads 2");
   auto arguments = std::make_shared<RunArguments>();
+  arguments->words = words;
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the results")->required();
   CLI::Option* overwrite = verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
   verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
-  verb->add_option("--threads", arguments->threads, "Number of threads; all processors where absent")->check(CLI::Range(1, 1024));
+  verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
+  verb->add_option("--threads", arguments->threads, "Number of threads; as many as there are processors that it may use where absent")->check(CLI::Range(1, 1024));
   verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(minutes)->capture_default_str();
+  verb->add_option("--label", arguments->label)->group("");  // these two are for batch
+  verb->add_option("--tell", arguments->tell)->group("");
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 

@@ -9,19 +9,25 @@
 #include <vector>
 
 #include "core/base/failure.hpp"
-#include "core/loop/scene.hpp"
+#include "core/loop/run.hpp"
 
 namespace beadwork {
 
 using Chosen = std::function<int()>;
+using Words = std::vector<std::string>;
 
-void add_run(CLI::App& app, Chosen& chosen);
+/// What was typed, word by word, as a line that can be pasted into a shell.
+std::string command_line(const Words& words);
+/// `run` as it was typed, to go on or to begin again; where it is a part of a batch, that batch's command, which does the same.
+Commands commands_of(const Words& words, const std::string& batch);
+
+void add_run(CLI::App& app, Chosen& chosen, const Words& words);
 void add_check(CLI::App& app, Chosen& chosen);
 void add_report(CLI::App& app, Chosen& chosen);
 void add_describe(CLI::App& app, Chosen& chosen);
 void add_plan(CLI::App& app, Chosen& chosen);
 void add_new(CLI::App& app, Chosen& chosen);
-void add_batch(CLI::App& app, Chosen& chosen);
+void add_batch(CLI::App& app, Chosen& chosen, const Words& words);
 
 /// What every verb that reads a deck takes.
 struct DeckArguments {
@@ -45,5 +51,7 @@ std::string shown(const Fault& fault);
 
 /// Throws DeckFailure with all complaints, or LibraryFailure. Warnings go to stderr.
 Loaded load_scene(const DeckArguments& arguments);
+/// What is wrong with the deck goes to `complaints`, warnings too; there is no scene then, and maybe no deck.
+Loaded load_scene(const DeckArguments& arguments, Complaints& complaints);
 
 }  // namespace beadwork

@@ -15,7 +15,7 @@ std::string why_unreachable(const fs::path& place) {
   const auto status = fs::status(place, error);
   if (status.type() == fs::file_type::not_found) return "there is no such file";
   if (!fs::status_known(status)) return error.message();
-  if (::access(place.c_str(), R_OK) != 0) return std::strerror(errno);
+  if (::access(place.c_str(), R_OK) != 0) return errno == EACCES ? "it may not be read" : std::strerror(errno);
   return {};
 }
 
@@ -25,11 +25,6 @@ std::string why_unreadable(const fs::path& file) {
   if (fs::is_directory(file, error)) return "it is a folder";
   if (!fs::is_regular_file(file, error)) return "it is no ordinary file";
   return {};
-}
-
-std::string path_beside(const std::string& beside, const std::string& file) {
-  if (file.size() > PATH_MAX) return file;  // no file has such a name, and to take it apart would take long
-  return (fs::path(beside).parent_path() / file).lexically_normal().string();
 }
 
 std::string canonical_path(const std::string& file) {

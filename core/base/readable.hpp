@@ -13,9 +13,6 @@ std::string why_unreachable(const std::filesystem::path& place);
 /// The same for what must be an ordinary file.
 std::string why_unreadable(const std::filesystem::path& file);
 
-/// `file` as seen from the folder of `beside`.
-std::string path_beside(const std::string& beside, const std::string& file);
-
 /// The one name by which a file is known, however it is reached; where the file system cannot tell, the path itself.
 std::string canonical_path(const std::string& file);
 

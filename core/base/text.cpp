@@ -148,6 +148,16 @@ std::string snake_from_kebab(std::string_view name) {
   return result;
 }
 
+std::string shell_quoted(std::string_view word) {
+  const auto is_safe = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("_./:,+@%=-").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_safe)) return std::string(word);
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 std::string xml_escaped(std::string_view text) {
   std::string result;
   const auto escape = [&](std::string_view line) {

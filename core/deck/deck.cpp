@@ -1,6 +1,8 @@
 #include "core/deck/deck.hpp"
 
 #include <algorithm>
+#include <climits>
+#include <filesystem>
 #include <set>
 
 #include "core/base/readable.hpp"
@@ -95,7 +97,7 @@ class DeckReader {
   void splice(const Node& include, Node& into) {
     if (!has_just(include, {"file"})) return miss();
     const Attribute& file = *include.find("file");
-    const std::string path = path_beside(chain_.back().path, file.value);
+    const std::string path = path_beside(file.value_at, file.value);
     if (!may_include(path, file.value_at)) return miss();
     const auto root = read(path, file.value_at);
     if (!root) return miss();
@@ -149,6 +151,12 @@ std::string hash_of(const Deck& deck, const std::vector<Override>& overrides) {
 
 }  // namespace
 
+std::string path_beside(const Location& at, const std::string& path) {
+  if (path.size() > PATH_MAX) return path;  // no file has such a name, and to take it apart would take long
+  const std::filesystem::path file = at.source ? at.source->path : "";
+  return (file.parent_path() / path).lexically_normal().string();
+}
+
 const Attribute* Node::find(std::string_view name) const {
   for (const Attribute& each : attributes)
     if (each.name == name) return &each;
@@ -168,6 +176,7 @@ std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Overr
   DeckReader reader(*deck, complaints);
   deck->root = reader.read(path, {});
   if (!deck->root) return nullptr;
+  deck->overrides = overrides;
   apply(overrides, *deck, complaints);
   if (!reader.is_whole()) return nullptr;
   deck->sha256 = hash_of(*deck, overrides);

@@ -16,6 +16,9 @@ namespace beadwork {
 /// character.
 Location locate(const Location& start, std::size_t offset);
 
+/// A path that a file names stands beside that file: `at` is where it is named.
+std::string path_beside(const Location& at, const std::string& path);
+
 struct Attribute {
   std::string name, value;     ///< value with its entities decoded
   Location name_at, value_at;  ///< value_at: its first character, behind the quote
@@ -44,7 +47,8 @@ struct Deck {
   std::unique_ptr<Node> root;  ///< <scene>; includes are spliced in, <include> and <parameter> are gone
   Scope scope;
   std::vector<std::shared_ptr<const Source>> sources;  ///< the deck, then its includes as they were met
-  std::string sha256;                                  ///< over the texts of all sources and the overrides
+  std::vector<Override> overrides;
+  std::string sha256;  ///< over the texts of all sources and the overrides
   std::string path;
 };
 

@@ -7,12 +7,14 @@
 #include "core/deck/grammar.hpp"
 #include "core/deck/recorder.hpp"
 #include "core/deck/scope.hpp"
+#include "core/deck/spell.hpp"
 
 namespace beadwork {
 
 namespace {
 
-constexpr std::size_t longest_text = 4000;
+constexpr std::size_t longest_text = 100000;
+constexpr std::size_t most_tokens = 4000;
 
 }  // namespace
 
@@ -25,20 +27,25 @@ std::optional<Expression> Expression::compile(std::string_view text, const Locat
           0, "this expression is longer than " + std::to_string(longest_text) + " characters");
     const std::vector<Token> tokens = tokens_of(text, scope, variables);
     if (tokens.empty()) throw ExpressionMistake(0, "an expression is wanted here");
+    if (tokens.size() > most_tokens)
+      throw ExpressionMistake(
+          0, "this expression is longer than " + std::to_string(most_tokens) + " numbers, names and signs");
     StepRecorder recorder(tokens);
     std::vector<int> handles(tokens.size(), -1);
+    std::vector<Quantity> values(tokens.size());
     for (std::size_t i = 0; i < tokens.size(); ++i) {
       const Token& token = tokens[i];
-      if (token.kind == Token::Kind::literal) handles[i] = recorder.constant(token.quantity, token);
+      if (token.kind == Token::Kind::literal) handles[i] = recorder.constant(values[i] = token.quantity, token);
       if (token.kind == Token::Kind::variable)
         handles[i] = recorder.variable(variables[token.variable].dimension, token);
       if (token.kind != Token::Kind::parameter) continue;
       const auto quantity = scope.quantity(token.text, locate(start, token.at), complaints);
       if (!quantity) return {};
-      handles[i] = recorder.constant(*quantity, token);
+      handles[i] = recorder.constant(values[i] = *quantity, token);
     }
     const int result = record(tokens, handles, text.size(), recorder);
     Expression expression;
+    expression.text_ = spelt_in_si(tokens, values);
     expression.dimension_ = recorder.at(result).dimension;
     expression.is_condition_ = recorder.at(result).is_condition;
     expression.steps_ = std::move(recorder).steps();

@@ -46,6 +46,7 @@ class Expression {
   /// Is it a number of this dimension? A 0 without a unit has any.
   bool has_dimension(const Dimension& wanted) const;
   bool uses(std::size_t variable) const;               ///< does its value depend on this one
+  const std::string& text() const { return text_; }    ///< in SI, with every parameter replaced by its value
 
   /// In SI; a condition gives 1 or 0. `si_values` are in the order of the variables. The result may be NaN or
   /// infinite (a condition on a NaN is NaN): it is the caller who knows how to say so.
@@ -59,6 +60,7 @@ class Expression {
   };
 
  private:
+  std::string text_;
   std::vector<Step> steps_;  ///< straight-line: the last one is the result
   Dimension dimension_;
   bool is_condition_ = false;

@@ -26,11 +26,12 @@ Dimension dimension_of(std::string_view unit) {
 /// Says what an attribute wants and what it got instead.
 class Refusal {
  public:
-  Refusal(const Attribute& attribute, std::string wanted, Complaints& complaints)
-      : attribute_(attribute), wanted_(std::move(wanted)), complaints_(complaints) {}
+  Refusal(const Attribute& attribute, std::string wanted, const Scope& scope, Complaints& complaints)
+      : attribute_(attribute), wanted_(std::move(wanted)), scope_(scope), complaints_(complaints) {}
 
   std::nullopt_t operator()(const std::string& behind = "", std::size_t at = 0) const {
-    const std::string got = trim(attribute_.value).empty() ? "nothing" : quoted(attribute_.value);
+    const bool of_the_text = behind.starts_with(":");  // how it is written, not what it gives
+    const std::string got = trim(attribute_.value).empty() ? "nothing" : quoted(of_the_text ? attribute_.value : shown_value(attribute_, scope_));
     complaints_.error(attribute_.place(at),
                       "'" + attribute_.name + "' wants " + wanted_ + ", got " + got + behind);
     return std::nullopt;
@@ -39,6 +40,7 @@ class Refusal {
  private:
   const Attribute& attribute_;
   std::string wanted_;
+  const Scope& scope_;
   Complaints& complaints_;
 };
 
@@ -53,7 +55,8 @@ std::optional<std::string> objection(const Value& value, std::string_view unit, 
   return shows_an_example ? "" : " without a unit";
 }
 
-std::optional<std::vector<double>> read_values(const Attribute& attribute, std::string_view unit,
+/// Values whose units are these in turn.
+std::optional<std::vector<double>> read_values(const Attribute& attribute, const std::vector<std::string_view>& units,
                                                const Scope& scope, Complaints& complaints,
                                                const Refusal& refuse) {
   attribute.used = true;
@@ -64,7 +67,7 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, std::
   std::vector<double> result;
   for (const Value& each : *values) {
     const bool is_zero = each.quantity.value == 0 && each.quantity.dimension.is_plain();  // has any unit
-    const auto why = is_zero ? std::nullopt : objection(each, unit, values->size() > 1);
+    const auto why = is_zero ? std::nullopt : objection(each, units[result.size() % units.size()], values->size() > 1);
     if (why) return refuse(*why);
     if (!std::isfinite(each.quantity.value)) return refuse(": it is out of range");
     result.push_back(each.quantity.value);
@@ -73,6 +76,12 @@ std::optional<std::vector<double>> read_values(const Attribute& attribute, std::
 }
 
 }  // namespace
+
+std::string shown_value(const Attribute& attribute, const Scope& scope) {
+  Complaints ignored;
+  const auto text = text_of(attribute.value, attribute.value_at, scope, ignored);
+  return text ? *text : attribute.value;
+}
 
 std::string wanted_by(std::string_view unit) {
   struct Noun {
@@ -94,8 +103,8 @@ std::string wanted_by(std::string_view unit) {
 
 std::optional<double> read_quantity(const Attribute& attribute, std::string_view unit, const Scope& scope,
                                     Complaints& complaints) {
-  const Refusal refuse(attribute, wanted_by(unit), complaints);
-  const auto values = read_values(attribute, unit, scope, complaints, refuse);
+  const Refusal refuse(attribute, wanted_by(unit), scope, complaints);
+  const auto values = read_values(attribute, {unit}, scope, complaints, refuse);
   if (!values) return {};
   if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
   return values->front();
@@ -103,15 +112,15 @@ std::optional<double> read_quantity(const Attribute& attribute, std::string_view
 
 std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
                                                    const Scope& scope, Complaints& complaints) {
-  return read_values(attribute, unit, scope, complaints,
-                     Refusal(attribute, "values, each " + wanted_by(unit), complaints));
+  return read_values(attribute, {unit}, scope, complaints,
+                     Refusal(attribute, "values, each " + wanted_by(unit), scope, complaints));
 }
 
 std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view unit, const Scope& scope,
                                 Complaints& complaints) {
   const std::string example = dimension_of(unit).is_plain() ? "1 0 0" : "1 0 0 " + std::string(unit);
-  const Refusal refuse(attribute, "three values such as " + quoted(example), complaints);
-  const auto values = read_values(attribute, unit, scope, complaints, refuse);
+  const Refusal refuse(attribute, "three values such as " + quoted(example), scope, complaints);
+  const auto values = read_values(attribute, {unit}, scope, complaints, refuse);
   if (!values) return {};
   if (values->size() != 3)
     return refuse(values->size() == 1 ? " which is one value"
@@ -119,11 +128,54 @@ std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view uni
   return Vec3((*values)[0], (*values)[1], (*values)[2]);
 }
 
+namespace {
+
+/// Where the commas stand that are not inside of brackets.
+std::vector<std::size_t> commas_of(std::string_view text) {
+  std::vector<std::size_t> commas;
+  int open = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(' || text[i] == '{') ++open;
+    if (text[i] == ')' || text[i] == '}') --open;
+    if (text[i] == ',' && open == 0) commas.push_back(i);
+  }
+  return commas;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attribute,
+                                                          const std::vector<std::string>& units,
+                                                          const Scope& scope, Complaints& complaints) {
+  std::vector<std::string> example;
+  for (const std::string& unit : units) example.push_back("1 " + unit);
+  const std::vector<std::string_view> in_turn(units.begin(), units.end());
+  std::vector<std::size_t> ends = commas_of(attribute.value);
+  ends.push_back(attribute.value.size());
+  std::vector<std::vector<double>> rows;
+  bool all_right = true;
+  for (std::size_t begin = 0; const std::size_t end : ends) {
+    const std::string text = attribute.value.substr(begin, end - begin);
+    const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const Attribute row{attribute.name, std::string(trim(text)), attribute.name_at, attribute.place(begin + first)};
+    const Refusal refuse(row, "rows such as " + quoted(join(example, " ")), scope, complaints);
+    auto values = read_values(row, in_turn, scope, complaints, refuse);
+    const bool fits = values && values->size() == units.size();
+    if (values && !fits) refuse(values->size() == 1 ? " which is one value" : " which are " + std::to_string(values->size()) + " values");
+    all_right = all_right && fits;
+    if (fits) rows.push_back(std::move(*values));
+    begin = end + 1;
+  }
+  attribute.used = true;
+  if (!all_right) return {};
+  return rows;
+}
+
 std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
                                          Complaints& complaints) {
   constexpr double largest = 9007199254740992.0;  // 2^53: up to here a double holds every whole number
-  const Refusal refuse(attribute, "a whole number", complaints);
-  const auto values = read_values(attribute, "1", scope, complaints, refuse);
+  const Refusal refuse(attribute, "a whole number", scope, complaints);
+  const auto values = read_values(attribute, {"1"}, scope, complaints, refuse);
   if (!values) return {};
   if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
   const double value = values->front();
@@ -150,6 +202,34 @@ std::optional<std::vector<std::string>> read_words(const Attribute& attribute, c
   return {};
 }
 
+std::optional<std::vector<std::string>> read_paths(const Attribute& attribute, const Scope& scope,
+                                                   Complaints& complaints) {
+  const auto text = read_text(attribute, scope, complaints);
+  if (!text) return {};
+  std::vector<std::string> paths;
+  for (std::string_view rest = trim(*text); !rest.empty(); rest = trim(rest)) {
+    const bool quotes = rest.front() == '\'' || rest.front() == '"';
+    const std::size_t end = quotes ? rest.find(rest.front(), 1) : std::min(rest.find_first_of(blanks), rest.size());
+    if (end == std::string_view::npos) {
+      complaints.error(attribute.value_at, "'" + attribute.name + "' has a quote that is not closed, got " + quoted(*text));
+      return {};
+    }
+    paths.push_back(path_beside(attribute.value_at, std::string(rest.substr(quotes ? 1 : 0, quotes ? end - 1 : end))));
+    rest.remove_prefix(quotes ? end + 1 : end);
+  }
+  return paths;
+}
+
+std::string text_of_paths(const std::vector<std::string>& paths) {
+  std::vector<std::string> words;
+  for (const std::string& path : paths) {
+    const bool plain = path.find_first_of(std::string(blanks) + "'\"") == std::string::npos;
+    const char quote = path.find('\'') == std::string::npos ? '\'' : '"';
+    words.push_back(plain ? path : quote + path + quote);
+  }
+  return join(words, " ");
+}
+
 std::optional<std::string> read_choice(const Attribute& attribute, const std::vector<std::string>& allowed,
                                        const Scope& scope, Complaints& complaints) {
   const auto text = read_text(attribute, scope, complaints);
@@ -157,7 +237,7 @@ std::optional<std::string> read_choice(const Attribute& attribute, const std::ve
   for (const std::string& each : allowed)
     if (each == *text) return each;
   const std::string near = closest(*text, allowed);
-  return Refusal(attribute, join(allowed, " or "),
+  return Refusal(attribute, join(allowed, " or "), scope,
                  complaints)(near.empty() ? "" : ". Did you mean '" + near + "'?");
 }
 
@@ -166,7 +246,7 @@ std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
   if (!text) return {};
   if (*text == "yes" || *text == "true") return true;
   if (*text == "no" || *text == "false") return false;
-  return Refusal(attribute, "yes or no", complaints)();
+  return Refusal(attribute, "yes or no", scope, complaints)();
 }
 
 namespace {

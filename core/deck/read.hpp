@@ -26,6 +26,10 @@ std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view uni
 /// Any number of values, at least one.
 std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
                                                    const Scope& scope, Complaints& complaints);
+/// Rows joined by commas, each with one value for each of the units: "0 s 0 m/s, 1 ms 2 m/s".
+std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attribute,
+                                                          const std::vector<std::string>& units,
+                                                          const Scope& scope, Complaints& complaints);
 std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
                                          Complaints& complaints);
 std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
@@ -35,9 +39,18 @@ std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
 std::optional<std::string> read_text(const Attribute& attribute, const Scope& scope, Complaints& complaints);
 std::optional<std::vector<std::string>> read_words(const Attribute& attribute, const Scope& scope,
                                                    Complaints& complaints);
+/// Paths of files, found beside the file in which the attribute stands: words, or 'in quotes' where one holds
+/// blanks.
+std::optional<std::vector<std::string>> read_paths(const Attribute& attribute, const Scope& scope,
+                                                   Complaints& complaints);
 std::optional<std::string> read_choice(const Attribute& attribute, const std::vector<std::string>& allowed,
                                        const Scope& scope, Complaints& complaints);
 
+/// Paths as read_paths takes them.
+std::string text_of_paths(const std::vector<std::string>& paths);
+
+/// What a message says that an attribute holds: its text with every ${} replaced, or as it stands where that does not work.
+std::string shown_value(const Attribute& attribute, const Scope& scope);
 /// How a message names what a unit stands for: `a length such as "1 mm"`, `a plain number`.
 std::string wanted_by(std::string_view unit);
 

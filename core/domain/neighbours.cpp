@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/parallel.hpp"
+
 namespace beadwork {
 namespace {
 
@@ -195,27 +197,51 @@ std::vector<Level> levels_of(const Cloud& cloud, std::size_t begin, std::size_t 
   return levels;
 }
 
-/// Calls search(cell, pairs) for each cell of a level; the pairs of each block of cells stand in a list of their own.
-template <class Search>
-void search_cells(const Level& level, std::vector<std::vector<Pair>>& found, const Search& search) {
-  constexpr std::size_t block = 256;
-  const std::size_t blocks = (level.cells() + block - 1) / block;
-  const std::size_t base = found.size();
-  found.resize(base + blocks);
-#pragma omp parallel for schedule(dynamic) if (blocks > 19)
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t end = std::min(level.cells(), (b + 1) * block);
-    for (std::size_t cell = b * block; cell < end; ++cell) search(cell, found[base + b]);
+/// Looks at the cells of levels, block by block; the pairs of each block stand in a list of their own.
+struct Search {
+  Rule rule;
+  const Pause& pause;
+  std::vector<std::vector<Pair>> found = {};
+
+  /// Calls look(cell, pairs) for each cell of a level.
+  template <class Look>
+  void each_cell(const Level& level, const Look& look) {
+    constexpr std::size_t block = 256, stretch = 256;  // cells, blocks
+    const std::size_t blocks = (level.cells() + block - 1) / block;
+    const std::size_t base = found.size();
+    found.resize(base + blocks);
+    for (std::size_t from = 0; from < blocks; from += stretch) {
+      pause();
+      const std::size_t to = std::min(blocks, from + stretch);
+      each_shared(to - from, [&](std::size_t k) {
+        const std::size_t b = from + k, end = std::min(level.cells(), (b + 1) * block);
+        for (std::size_t cell = b * block; cell < end; ++cell) look(cell, found[base + b]);
+      }, 20);
+    }
   }
-}
+};
 
 void add_if_near(const Rule& rule, const Member& a, const Member& b, std::vector<Pair>& pairs) {
   if (near(rule, a, b)) pairs.push_back({std::min(a.element, b.element), std::max(a.element, b.element)});
 }
 
+/// Whatever shares a cell is near, but for its corners: where that alone makes too many pairs, nobody should begin to look.
+void refuse_crowds(const std::vector<Level>& levels) {
+  Real pairs = 0;
+  for (const Level& level : levels)
+    for (std::size_t cell = 0; cell < level.cells(); ++cell) {
+      const Real members = static_cast<Real>(level.cell(cell).size());
+      pairs += members * (members - 1) / 2;
+    }
+  if (pairs > most_pairs)
+    throw std::invalid_argument("the elements lie so close together, or the gap between those that are looked for is so large, that about " +
+                                std::to_string(static_cast<std::int64_t>(std::min(pairs, 1e18))) + " pairs are near: more than can be held");
+}
+
 /// Pairs of the members of a level with each other.
-void search_in(const Rule& rule, const Level& level, std::vector<std::vector<Pair>>& found) {
-  search_cells(level, found, [&](std::size_t cell, std::vector<Pair>& pairs) {
+void search_in(Search& search, const Level& level) {
+  const Rule& rule = search.rule;
+  search.each_cell(level, [&](std::size_t cell, std::vector<Pair>& pairs) {
     const auto own = level.cell(cell);
     for (std::size_t k = 0; k < own.size(); ++k)
       for (std::size_t l = k + 1; l < own.size(); ++l) add_if_near(rule, own[k], own[l], pairs);
@@ -227,8 +253,9 @@ void search_in(const Rule& rule, const Level& level, std::vector<std::vector<Pai
 }
 
 /// Pairs of the members of a level with those of another, whose elements are larger.
-void search_among(const Rule& rule, const Level& level, const Level& larger, std::vector<std::vector<Pair>>& found) {
-  search_cells(level, found, [&](std::size_t cell, std::vector<Pair>& pairs) {
+void search_among(Search& search, const Level& level, const Level& larger) {
+  const Rule& rule = search.rule;
+  search.each_cell(level, [&](std::size_t cell, std::vector<Pair>& pairs) {
     for (const Member& a : level.cell(cell))
       larger.visit_cells_around(a.x, [&](std::span<const Member> others) {
         for (const Member& b : others) add_if_near(rule, a, b, pairs);
@@ -245,39 +272,42 @@ std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (const auto& part : found)
     for (const Pair& p : part) pairs[next[p.i]++] = p;
-#pragma omp parallel for schedule(static) if (elements > 20000)
-  for (std::size_t i = 0; i < elements; ++i)
+  const auto sort_those_of = [&](std::size_t i) {
     std::sort(pairs.begin() + std::ptrdiff_t(first[i]), pairs.begin() + std::ptrdiff_t(first[i + 1]),
               [](const Pair& a, const Pair& b) { return a.j < b.j; });
+  };
+  each_shared(elements, sort_those_of, 20001);
   return pairs;
 }
 
 }  // namespace
 
 std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance,
-                             Real gap) {
-  return find_pairs_around(position, radius, position.size(), tolerance, gap);
+                             Real gap, const Pause& pause) {
+  return find_pairs_around(position, radius, position.size(), tolerance, gap, pause);
 }
 
 std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius,
-                                    std::size_t moving, Real tolerance, Real gap) {
+                                    std::size_t moving, Real tolerance, Real gap, const Pause& pause) {
   const Rule rule{tolerance, gap};
   check(position, radius, rule);
   const Cloud cloud = cloud_of(position, radius, rule);
   moving = std::min(moving, position.size());
+  pause();
   const auto own = levels_of(cloud, 0, moving);
   const auto fixed = levels_of(cloud, moving, position.size());
-  std::vector<std::vector<Pair>> found;
+  refuse_crowds(own);
+  Search search{rule, pause};
   for (std::size_t a = 0; a < own.size(); ++a) {
-    search_in(rule, own[a], found);
-    for (std::size_t b = 0; b < a; ++b) search_among(rule, own[a], own[b], found);
+    search_in(search, own[a]);
+    for (std::size_t b = 0; b < a; ++b) search_among(search, own[a], own[b]);
     for (const Level& f : fixed)
       if (own[a].largest() <= f.largest())
-        search_among(rule, own[a], f, found);
+        search_among(search, own[a], f);
       else
-        search_among(rule, f, own[a], found);
+        search_among(search, f, own[a]);
   }
-  return sorted(found, position.size());
+  return sorted(search.found, position.size());
 }
 
 NeighbourList neighbours_of(std::span<const Pair> pairs, std::size_t elements) {

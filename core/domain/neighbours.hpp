@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/pause.hpp"
 #include "core/base/types.hpp"
 
 namespace beadwork {
@@ -18,14 +19,18 @@ struct Pair {
 
 /// All pairs with |x_j - x_i| <= (1 + tolerance) (R_i + R_j) + gap, sorted by (i, j); the same list for any
 /// number of threads. Throws std::invalid_argument that names the first element whose position or radius is
-/// not finite, or whose radius is negative.
+/// not finite, or whose radius is negative; or if there are too many pairs to be held (`most_pairs`), before they are looked for.
 std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance = 0,
-                             Real gap = 0);
+                             Real gap = 0, const Pause& pause = never_paused);
+
+/// Elements that share cells in so many pairs have at least about as many that are near: gigabytes of them.
+inline constexpr Real most_pairs = 5e8;
 
 /// The same, without the pairs of two elements that both stand at `moving` or behind: obstacles, which may
 /// overlap.
 std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius,
-                                    std::size_t moving, Real tolerance = 0, Real gap = 0);
+                                    std::size_t moving, Real tolerance = 0, Real gap = 0,
+                                    const Pause& pause = never_paused);
 
 /// The neighbours of each element, both ways: those of element i are other[first[i]] ... other[first[i + 1] -
 /// 1], in rising order.

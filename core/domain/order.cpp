@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/parallel.hpp"
+
 namespace beadwork {
 namespace {
 
@@ -62,13 +64,12 @@ std::vector<Index> hilbert_order(std::span<const Vec3> position) {
   const Real top = Real((1u << bits_per_axis) - 1);
   const Real scale = extent > 0 ? top / extent : 0;
   std::vector<std::uint64_t> key(position.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < position.size(); ++i) {
+  each_shared(position.size(), [&](std::size_t i) {
     std::array<std::uint32_t, 3> cell;
     for (int a = 0; a < 3; ++a)
       cell[a] = static_cast<std::uint32_t>(std::clamp((position[i][a] - low[a]) * scale, Real(0), top));
     key[i] = hilbert_index(cell);
-  }
+  });
   std::sort(order.begin(), order.end(),
             [&](Index a, Index b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
   return order;

@@ -45,8 +45,7 @@ std::uint64_t check_sum(std::span<const std::byte> bytes) {
 class Mapping {
  public:
   explicit Mapping(const std::filesystem::path& file) {
-    const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!in) throw file_failure("read", file, errno);
+    const Descriptor in = open_regular(file, O_RDONLY, "read");
     struct stat status {};
     if (::fstat(in.number(), &status) != 0) throw file_failure("read", file, errno);
     size_ = static_cast<std::size_t>(status.st_size);

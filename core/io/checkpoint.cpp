@@ -1,11 +1,10 @@
 #include "core/io/checkpoint.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <cmath>
+#include <limits>
 
 #include "core/io/check_sum.hpp"
 #include "core/io/file.hpp"
@@ -15,7 +14,7 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // ---- writing
 
@@ -87,9 +86,12 @@ CheckpointMeta load_meta(hid_t place) {
   CheckpointMeta meta;
   meta.version = h5::text_attribute(group.id(), "version");
   meta.deck_sha256 = h5::text_attribute(group.id(), "deck_sha256");
-  meta.stage = static_cast<Index>(h5::integer_attribute(group.id(), "stage"));
+  const std::int64_t stage = h5::integer_attribute(group.id(), "stage");
+  if (stage < 0 || stage > std::numeric_limits<Index>::max()) throw MachineFailure(fmt::format("stage {} is none", stage));
+  meta.stage = static_cast<Index>(stage);
   meta.time = h5::real_attribute(group.id(), "time");
   meta.step = h5::integer_attribute(group.id(), "step");
+  if (meta.step < 0 || !std::isfinite(meta.time)) throw MachineFailure(fmt::format("step {} at {} s is none", meta.step, meta.time));
   meta.seed = static_cast<std::uint64_t>(h5::integer_attribute(group.id(), "seed"));
   meta.resolved = h5::read_text(group.id(), "resolved");
   const auto keys = h5::read_texts(group.id(), "keys");
@@ -122,8 +124,49 @@ void load_columns(hid_t place, const std::string& name, Table& table, On on, con
     h5::read_column(group.id(), column_for(table, h5::read_field(group.id(), column, on), of), table.size());
 }
 
+// Rows of a table, which all its columns have. Checked before room is made for them.
 Index saved_rows(hid_t place, const std::string& name) {
-  return static_cast<Index>(h5::integer_attribute(h5::open_group(place, name).id(), "rows"));
+  const h5::Handle group = h5::open_group(place, name);
+  const std::int64_t rows = h5::integer_attribute(group.id(), "rows");
+  const auto columns = h5::names_in(group.id());
+  const bool fits = rows >= 0 && rows <= most_elements && (rows <= 1 || !columns.empty()) &&
+                    std::all_of(columns.begin(), columns.end(), [&](const std::string& column) {
+                      const auto extent = h5::shape_of(group.id(), column).extent;
+                      return !extent.empty() && extent[0] == static_cast<hsize_t>(rows);
+                    });
+  if (!fits) throw MachineFailure(fmt::format("'{}' does not have the {} rows that it says", name, rows));
+  return static_cast<Index>(rows);
+}
+
+void require_range(View<const Index> numbers, Index rows, Index below, const std::string& what) {
+  for (Index row = 0; row < rows; ++row)
+    if (numbers[row] < 0 || numbers[row] >= below) throw MachineFailure(fmt::format("{} {} is not one of {}", what, numbers[row], below));
+}
+
+// Ids are those of 0 to below - 1, each at most once.
+void require_ids(View<const Index> ids, Index rows, std::vector<bool>& taken, const std::string& of) {
+  require_range(ids, rows, static_cast<Index>(taken.size()), "id of " + of);
+  for (Index row = 0; row < rows; ++row) {
+    if (taken[static_cast<std::size_t>(ids[row])]) throw MachineFailure(fmt::format("two of the {} have id {}", of, ids[row]));
+    taken[static_cast<std::size_t>(ids[row])] = true;
+  }
+}
+
+// What the loop takes for granted when it follows a number to a row.
+void require_whole(const Domain& domain) {
+  const Index elements = domain.size();
+  std::vector<bool> element_ids(static_cast<std::size_t>(elements)), bond_ids(static_cast<std::size_t>(domain.bonds()));
+  require_ids(domain.elements().column("id").view<const Index>(), elements, element_ids, "elements");
+  for (const auto& family : domain.families()) {
+    require_range(family->first(), family->size(), elements, "first end of a bond of '" + family->name() + "':");
+    require_range(family->second(), family->size(), elements, "second end of a bond of '" + family->name() + "':");
+    require_ids(family->id(), family->size(), bond_ids, "bonds");
+    for (Index row = 0; row < family->size(); ++row)
+      if (family->state()[row] > State::broken) throw MachineFailure(fmt::format("a bond of '{}' is in no state that there is", family->name()));
+  }
+  for (const auto& [name, set] : domain.sets())
+    for (const Index row : set)
+      if (row < 0 || row >= elements) throw MachineFailure(fmt::format("set '{}' names element {} of {}", name, row, elements));
 }
 
 // `families[k]` is the place in the domain of the file's family k.
@@ -152,18 +195,21 @@ void load_sets(hid_t place, Domain& domain) {
   for (const std::string& name : h5::names_in(group.id())) domain.sets()[name] = h5::read_indices(group.id(), name);
 }
 
-BreakLog load_breaks(hid_t place, const std::vector<Index>& families) {
+BreakLog load_breaks(hid_t place, const std::vector<Index>& families, const Domain& domain) {
   const h5::Handle group = h5::open_group(place, "breaks");
   BreakLog log;
   log.modes = h5::read_texts(group.id(), "modes");
-  const auto reals = h5::read_reals(group.id(), "reals");
-  const auto indices = h5::read_indices(group.id(), "indices");
+  const auto reals = h5::read_reals(group.id(), "reals", 5);
+  const auto indices = h5::read_indices(group.id(), "indices", 3);
   const auto steps = h5::read_integers(group.id(), "steps");
+  if (reals.size() != 5 * steps.size() || indices.size() != 3 * steps.size()) throw MachineFailure("its log of breaks is not whole");
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Real* r = &reals.at(5 * i);
-    const Index* n = &indices.at(3 * i);
-    log.breaks.push_back({r[0], steps[i], families.at(static_cast<std::size_t>(n[0])), n[1], n[2],
-                          Vec3(r[1], r[2], r[3]), r[4]});
+    const Real* r = &reals[5 * i];
+    const Index* n = &indices[3 * i];
+    const auto within = [](Index number, std::size_t count) { return number >= 0 && static_cast<std::size_t>(number) < count; };
+    if (!within(n[0], families.size()) || !within(n[1], static_cast<std::size_t>(domain.bonds())) || !within(n[2], log.modes.size()))
+      throw MachineFailure(fmt::format("break {} is of a family, a bond or a mode that there is not", i));
+    log.breaks.push_back({r[0], steps[i], families[static_cast<std::size_t>(n[0])], n[1], n[2], Vec3(r[1], r[2], r[3]), r[4]});
   }
   return log;
 }
@@ -177,8 +223,6 @@ auto read_file(const std::filesystem::path& file, const Read& read) {
     return read(h5::open_file(file).id());
   } catch (const MachineFailure& failure) {
     throw MachineFailure(fmt::format("cannot read checkpoint '{}': {}", file.string(), failure.what()));
-  } catch (const std::out_of_range&) {
-    throw MachineFailure(fmt::format("cannot read checkpoint '{}': its log of breaks is not whole", file.string()));
   }
 }
 
@@ -210,7 +254,8 @@ void load_checkpoint(const std::filesystem::path& file, Domain& domain) {
     load_columns(place, "scene", domain.scene(), On::scene, "the scene");
     const auto families = load_families(place, domain);
     load_sets(place, domain);
-    domain.breaks() = load_breaks(place, families);
+    domain.breaks() = load_breaks(place, families, domain);
+    require_whole(domain);
   });
 }
 

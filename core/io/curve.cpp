@@ -31,38 +31,39 @@ void append(std::string& row, T number) {
   row.append(digits, end);
 }
 
-// Length of the file up to the last whole row that is not later than `step`.
-std::uintmax_t length_up_to(std::ifstream& in, std::uintmax_t first_row, std::int64_t step) {
-  std::uintmax_t length = first_row;
-  std::string row;
-  while (std::getline(in, row) && !in.eof()) {  // a row that ends with the file, not with its line, is torn
-    std::int64_t at = 0;
-    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), at);
-    if (error != std::errc() || end == row.data() + row.size() || *end != ',' || at > step) break;
-    length += row.size() + 1;
-  }
-  return length;
+std::ifstream open_to_read(const std::filesystem::path& file) {
+  open_regular(file, O_RDONLY, "read");  // refuses what would be followed or waited for
+  return std::ifstream(file, std::ios::binary);
 }
 
 std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
   std::string head;
-  if (!std::getline(in, head)) throw file_failure("read", file, EIO);
+  if (!std::getline(in, head) || in.eof()) throw MachineFailure(fmt::format("curve '{}' has no first line; remove it to go on without its rows", file.string()));
   return head;
 }
 
-void cut(const std::filesystem::path& file, std::int64_t step) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string head = head_of(in, file);
-  std::error_code error;
-  std::filesystem::resize_file(file, length_up_to(in, head.size() + 1, step), error);
-  if (error) throw file_failure("cut", file, error.value());
+// Up to `most`, in whole rows: one that ends with the file, not with its line, is torn.
+std::uintmax_t length_of(const std::filesystem::path& file, std::uintmax_t most) {
+  std::ifstream in = open_to_read(file);
+  std::uintmax_t length = head_of(in, file).size() + 1;
+  for (std::string row; length < most && std::getline(in, row) && !in.eof();) length += row.size() + 1;
+  return length;
 }
 
 }  // namespace
 
-void cut_curves(const std::filesystem::path& folder, std::int64_t step) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".csv") cut(entry.path(), step);
+std::vector<CurveCut> cuts_to(const std::map<std::string, std::uintmax_t>& lengths, const std::vector<std::filesystem::path>& files) {
+  std::vector<CurveCut> cuts;
+  for (const auto& file : files) {
+    const auto known = lengths.find(file.stem().string());
+    cuts.push_back({file, length_of(file, known == lengths.end() ? 0 : known->second)});
+  }
+  return cuts;
+}
+
+void cut(const std::vector<CurveCut>& cuts) {
+  for (const CurveCut& cut : cuts)
+    if (::ftruncate(open_regular(cut.file, O_WRONLY, "cut").number(), static_cast<off_t>(cut.length)) != 0) throw file_failure("cut", cut.file, errno);
 }
 
 Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
@@ -75,7 +76,7 @@ Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveCol
 Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return fresh(file, columns);
-  std::ifstream in(file, std::ios::binary);
+  std::ifstream in = open_to_read(file);
   const std::string head = head_of(in, file);
   if (head != first_line(columns))
     throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
@@ -87,8 +88,7 @@ Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveCo
 }
 
 void Curve::open() {
-  descriptor_ = Descriptor(::open(file_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
-  if (!descriptor_) throw file_failure("write", file_, errno);
+  descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "write");
 }
 
 void Curve::add(std::int64_t step, std::span<const Real> values) {
@@ -110,6 +110,12 @@ void Curve::add(std::int64_t step, std::span<const Real> values) {
 
 void Curve::sync() {
   if (::fsync(descriptor_.number()) != 0 && errno != EINVAL) throw file_failure("write", file_, errno);
+}
+
+std::uintmax_t Curve::length() const {
+  const off_t end = ::lseek(descriptor_.number(), 0, SEEK_END);
+  if (end < 0) throw file_failure("read", file_, errno);
+  return static_cast<std::uintmax_t>(end);
 }
 
 void Curve::write_sidecar(const std::string& json) const {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,13 +25,15 @@ class Curve {
  public:
   /// Writes the first line. The step comes first by itself; `columns` follow it.
   static Curve fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
-  /// Takes up a curve that `cut_curves` has cut. A file that is not there is begun. DeckFailure if its first line is another one.
+  /// Takes up a curve that `cut` has cut. A file that is not there is begun. DeckFailure if its first line is another one.
   static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
 
   /// Throws MachineFailure if the row could not be written; the rows before it then still stand.
   void add(std::int64_t step, std::span<const Real> values);
   /// Waits until the disk has the rows; before a checkpoint, so that it never knows more than the curve.
   void sync();
+  /// Of the file, in bytes.
+  std::uintmax_t length() const;
   /// Writes a text about the curve beside it: curves/force.csv, curves/force.json.
   void write_sidecar(const std::string& json) const;
 
@@ -47,7 +50,15 @@ class Curve {
   std::string row_;
 };
 
-/// Drops the rows after `step` of all curves in a folder, and last rows that a kill has torn.
-void cut_curves(const std::filesystem::path& folder, std::int64_t step);
+/// Where a curve is to be cut.
+struct CurveCut {
+  std::filesystem::path file;
+  std::uintmax_t length = 0;
+};
+/// The cuts that take these curves back to a checkpoint, which knows how long each was, by its name: rows that came later go, be they of
+/// its very step, and a last row that a kill has torn. Of a curve that has been cut shorter whole rows stay; of one that the checkpoint does
+/// not know the first line. Changes nothing: a resume looks at everything before it cuts anything. MachineFailure if one cannot be read.
+std::vector<CurveCut> cuts_to(const std::map<std::string, std::uintmax_t>& lengths, const std::vector<std::filesystem::path>& files);
+void cut(const std::vector<CurveCut>& cuts);
 
 }  // namespace beadwork

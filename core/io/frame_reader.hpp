@@ -1,6 +1,6 @@
 #pragma once
 // Reads what a run recorded back into plain vectors, for pictures and reports. A simulation never reads its
-// record; so this is liberal: what is not there is left empty.
+// record; so this is liberal: what is not there is left empty. What is there must be whole, and fit together.
 
 #include <array>
 #include <cstdint>
@@ -12,6 +12,7 @@
 
 #include "core/base/types.hpp"
 #include "core/domain/field.hpp"
+#include "core/io/file.hpp"
 
 namespace beadwork::record {
 
@@ -60,7 +61,7 @@ struct Breaks {
 class FrameReader {
  public:
   /// Throws MachineFailure if the file cannot be opened as HDF5.
-  explicit FrameReader(const std::filesystem::path& file);
+  explicit FrameReader(const std::filesystem::path& file, Links links = Links::refuse);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;

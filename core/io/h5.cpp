@@ -57,20 +57,6 @@ Handle write_numbers(hid_t place, const std::string& name, Types types, const vo
   return dataset;
 }
 
-Handle open_dataset(hid_t place, const std::string& name) {
-  return take(H5Dopen2(place, name.c_str(), H5P_DEFAULT), H5Dclose, "open dataset '" + name + "'");
-}
-
-template <class T>
-std::vector<T> read_numbers(hid_t place, const std::string& name, hid_t memory) {
-  const Handle dataset = open_dataset(place, name);
-  const Handle space = take(H5Dget_space(dataset.id()), H5Sclose, "read dataset '" + name + "'");
-  std::vector<T> out(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id()))));
-  if (!out.empty())
-    check(H5Dread(dataset.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), "read dataset '" + name + "'");
-  return out;
-}
-
 // Text of one length for all, so that it lies in the dataset itself.
 Handle text_type(std::size_t length) {
   Handle type = take(H5Tcopy(H5T_C_S1), H5Tclose, "describe text");
@@ -119,14 +105,6 @@ void set_number(hid_t object, const std::string& name, Types types, const void* 
   check(H5Awrite(attribute.id(), types.memory, value), "write attribute '" + name + "'");
 }
 
-template <class T>
-T number_attribute(hid_t object, const std::string& name, hid_t memory) {
-  const Handle attribute = take(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute '" + name + "'");
-  T value{};
-  check(H5Aread(attribute.id(), memory, &value), "read attribute '" + name + "'");
-  return value;
-}
-
 // Rows of a column side by side; `T` is one component.
 template <class T>
 std::vector<T> gathered(const Column& column, Index rows) {
@@ -138,25 +116,6 @@ std::vector<T> gathered(const Column& column, Index rows) {
     for (int c = 0; c < width; ++c, from += column.plane()) std::memcpy(to++, from, sizeof(T));
   }
   return out;
-}
-
-template <class T>
-void scatter(const std::vector<T>& numbers, Column& column, Index rows) {
-  const int width = components(column.field().type);
-  const T* from = numbers.data();
-  for (Index row = 0; row < rows; ++row) {
-    std::byte* to = column.base() + static_cast<std::size_t>(row) * column.stride();
-    for (int c = 0; c < width; ++c, to += column.plane()) std::memcpy(to, from++, sizeof(T));
-  }
-}
-
-template <class T>
-void fill_column(hid_t place, Column& column, Index rows, hid_t memory) {
-  const auto numbers = read_numbers<T>(place, column.field().name, memory);
-  const auto wanted = static_cast<std::size_t>(rows) * static_cast<std::size_t>(components(column.field().type));
-  if (numbers.size() != wanted)
-    throw MachineFailure(fmt::format("dataset '{}' holds {} numbers, not {}", column.field().name, numbers.size(), wanted));
-  scatter(numbers, column, rows);
 }
 
 }  // namespace
@@ -197,31 +156,8 @@ std::span<const std::byte> MemoryFile::image() const {
   return {*static_cast<const std::byte* const*>(handle), static_cast<std::size_t>(size)};
 }
 
-Handle open_file(const std::filesystem::path& file) {
-  const Handle access = take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open a file");
-  // Files are replaced, never changed: who reads one needs no lock, and some file systems have none.
-  H5Pset_file_locking(access.id(), false, true);
-  return take(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, "open '" + file.string() + "'");
-}
-
 Handle make_group(hid_t place, const std::string& name) {
   return take(H5Gcreate2(place, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "make group '" + name + "'");
-}
-
-Handle open_group(hid_t place, const std::string& name) {
-  return take(H5Gopen2(place, name.c_str(), H5P_DEFAULT), H5Gclose, "open group '" + name + "'");
-}
-
-bool has(hid_t place, const std::string& name) { return H5Lexists(place, name.c_str(), H5P_DEFAULT) > 0; }
-
-std::vector<std::string> names_in(hid_t group) {
-  std::vector<std::string> names;
-  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
-    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-    return 0;
-  };
-  check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "list a group");
-  return names;
 }
 
 void set_attribute(hid_t object, const std::string& name, const std::string& text) {
@@ -237,44 +173,11 @@ void set_texts_attribute(hid_t object, const std::string& name, const std::vecto
   if (!texts.empty()) set_packed(object, name, texts, space_of(texts.size(), 1));
 }
 
-std::string text_attribute(hid_t object, const std::string& name) {
-  const Handle attribute = take(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "open attribute '" + name + "'");
-  const Handle type = take(H5Aget_type(attribute.id()), H5Tclose, "read attribute '" + name + "'");
-  std::vector<char> bytes(H5Tget_size(type.id()));
-  check(H5Aread(attribute.id(), type.id(), bytes.data()), "read attribute '" + name + "'");
-  return {bytes.data(), strnlen(bytes.data(), bytes.size())};
-}
-Real real_attribute(hid_t object, const std::string& name) {
-  return number_attribute<Real>(object, name, H5T_NATIVE_DOUBLE);
-}
-std::int64_t integer_attribute(hid_t object, const std::string& name) {
-  return number_attribute<std::int64_t>(object, name, H5T_NATIVE_INT64);
-}
-
 void write_text(hid_t place, const std::string& name, const std::string& text) {
   write_packed(place, name, {text}, take(H5Screate(H5S_SCALAR), H5Sclose, "describe a dataset"));
 }
 void write_texts(hid_t place, const std::string& name, const std::vector<std::string>& texts) {
   write_packed(place, name, texts, space_of(texts.size(), 1));
-}
-
-std::vector<std::string> read_texts(hid_t place, const std::string& name) {
-  const Handle dataset = open_dataset(place, name);
-  const Handle type = take(H5Dget_type(dataset.id()), H5Tclose, "read dataset '" + name + "'");
-  const Handle space = take(H5Dget_space(dataset.id()), H5Sclose, "read dataset '" + name + "'");
-  const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.id()));
-  const std::size_t length = H5Tget_size(type.id());
-  std::vector<char> bytes(std::max<std::size_t>(1, count * length));
-  if (count > 0)
-    check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), "read dataset '" + name + "'");
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < count; ++i)
-    texts.emplace_back(bytes.data() + i * length, strnlen(bytes.data() + i * length, length));
-  return texts;
-}
-std::string read_text(hid_t place, const std::string& name) {
-  const auto texts = read_texts(place, name);
-  return texts.empty() ? "" : texts.front();
 }
 
 Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label,
@@ -289,16 +192,6 @@ Handle write_indices(hid_t place, const std::string& name, std::span<const Index
 }
 Handle write_integers(hid_t place, const std::string& name, std::span<const std::int64_t> numbers, const Label& label) {
   return write_numbers(place, name, {H5T_STD_I64LE, H5T_NATIVE_INT64}, numbers.data(), numbers.size(), 1, label, {});
-}
-
-std::vector<Real> read_reals(hid_t place, const std::string& name) {
-  return read_numbers<Real>(place, name, H5T_NATIVE_DOUBLE);
-}
-std::vector<Index> read_indices(hid_t place, const std::string& name) {
-  return read_numbers<Index>(place, name, H5T_NATIVE_INT32);
-}
-std::vector<std::int64_t> read_integers(hid_t place, const std::string& name) {
-  return read_numbers<std::int64_t>(place, name, H5T_NATIVE_INT64);
 }
 
 void write_column(hid_t place, const Column& column, Index rows, Storage storage) {
@@ -316,47 +209,6 @@ void write_column(hid_t place, const Column& column, Index rows, Storage storage
   }();
   set_attribute(dataset.id(), "type", std::string(type_name(field.type)));
   set_attribute(dataset.id(), "line", field.line);
-}
-
-Field read_field(hid_t place, const std::string& name, On on) {
-  const Handle dataset = open_dataset(place, name);
-  Field field{name, on, Type::real, text_attribute(dataset.id(), "unit"), text_attribute(dataset.id(), "long_name"),
-              text_attribute(dataset.id(), "line")};
-  const std::string type = text_attribute(dataset.id(), "type");
-  for (const Type known : {Type::real, Type::vec3, Type::quat, Type::index, Type::state})
-    if (type == type_name(known)) {
-      field.type = known;
-      return field;
-    }
-  throw MachineFailure(fmt::format("dataset '{}' is of the unknown type '{}'", name, type));
-}
-
-void read_column(hid_t place, Column& column, Index rows) {
-  switch (column.field().type) {
-    case Type::index: return fill_column<Index>(place, column, rows, H5T_NATIVE_INT32);
-    case Type::state: return fill_column<std::uint8_t>(place, column, rows, H5T_NATIVE_UINT8);
-    default: return fill_column<Real>(place, column, rows, H5T_NATIVE_DOUBLE);
-  }
-}
-
-Label label_of(hid_t place, const std::string& name) {
-  const Handle dataset = open_dataset(place, name);
-  const auto text = [&](const char* attribute) {
-    return H5Aexists(dataset.id(), attribute) > 0 ? text_attribute(dataset.id(), attribute) : std::string();
-  };
-  return {text("unit"), text("long_name")};
-}
-
-Shape shape_of(hid_t place, const std::string& name) {
-  const Handle dataset = open_dataset(place, name);
-  const Handle space = take(H5Dget_space(dataset.id()), H5Sclose, "read dataset '" + name + "'");
-  const Handle type = take(H5Dget_type(dataset.id()), H5Tclose, "read dataset '" + name + "'");
-  Shape shape;
-  shape.extent.resize(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
-  if (!shape.extent.empty()) H5Sget_simple_extent_dims(space.id(), shape.extent.data(), nullptr);
-  shape.integer = H5Tget_class(type.id()) == H5T_INTEGER;
-  shape.bytes = H5Tget_size(type.id());
-  return shape;
 }
 
 }  // namespace beadwork::h5

@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/domain/table.hpp"
+#include "core/io/file.hpp"
 #include "core/io/h5_handle.hpp"
 
 namespace beadwork::h5 {
@@ -34,11 +36,7 @@ class MemoryFile {
   Handle file_;
 };
 
-Handle open_file(const std::filesystem::path& file);
 Handle make_group(hid_t place, const std::string& name);
-Handle open_group(hid_t place, const std::string& name);
-bool has(hid_t place, const std::string& name);
-std::vector<std::string> names_in(hid_t group);
 
 /// How numbers lie in the file.
 struct Storage {
@@ -53,16 +51,11 @@ struct Label {
 void set_attribute(hid_t object, const std::string& name, const std::string& text);
 void set_attribute(hid_t object, const std::string& name, Real value);
 void set_attribute(hid_t object, const std::string& name, std::int64_t value);
-std::string text_attribute(hid_t object, const std::string& name);
-Real real_attribute(hid_t object, const std::string& name);
-std::int64_t integer_attribute(hid_t object, const std::string& name);
 
 /// One text, or a list of them: scalar or one-dimensional datasets of UTF-8.
 void write_text(hid_t place, const std::string& name, const std::string& text);
 void write_texts(hid_t place, const std::string& name, const std::vector<std::string>& texts);
 void set_texts_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
-std::string read_text(hid_t place, const std::string& name);
-std::vector<std::string> read_texts(hid_t place, const std::string& name);
 
 /// `rows` times `width` numbers, row by row; one-dimensional if the width is one.
 Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label,
@@ -70,26 +63,55 @@ Handle write_reals(hid_t place, const std::string& name, std::span<const Real> n
 Handle write_indices(hid_t place, const std::string& name, std::span<const Index> numbers, int width,
                      const Label& label, Storage storage = {});
 Handle write_integers(hid_t place, const std::string& name, std::span<const std::int64_t> numbers, const Label& label);
-std::vector<Real> read_reals(hid_t place, const std::string& name);
-std::vector<Index> read_indices(hid_t place, const std::string& name);
-std::vector<std::int64_t> read_integers(hid_t place, const std::string& name);
 
 /// A column under its own name, with unit and long_name, and with what is needed to make it again.
 void write_column(hid_t place, const Column& column, Index rows, Storage storage = {});
-/// The field as which a dataset was written.
-Field read_field(hid_t place, const std::string& name, On on);
-/// Fills the first `rows` rows of the column from the dataset of its name.
-void read_column(hid_t place, Column& column, Index rows);
+// ---- Reading (h5_read.cpp). A file may be damaged, or made by somebody who means harm: class, shape and size of whatever is read are
+// compared with what the reader wants and with what the file can hold before a byte is taken. What lies outside of the file (links,
+// raw data in other files, virtual datasets) is never followed. MachineFailure says what does not fit.
 
-/// Unit and long_name of a dataset, empty where it has none.
-Label label_of(hid_t place, const std::string& name);
+Handle open_file(const std::filesystem::path& file, Links links = Links::refuse);
+/// A group of this file, by a path of names.
+Handle open_group(hid_t place, const std::string& path);
+bool has(hid_t place, const std::string& name);
+std::vector<std::string> names_in(hid_t group);
+/// Whether the name is that of a link into another file, and where to: a file beside this one, and a group in it.
+struct Elsewhere {
+  std::string file, group;
+};
+std::optional<Elsewhere> leads_elsewhere(hid_t place, const std::string& name);
 
 /// Shape and kind of a dataset.
 struct Shape {
   std::vector<hsize_t> extent;
   bool integer = false;
+  bool text = false;
   std::size_t bytes = 0;  ///< of one number
 };
 Shape shape_of(hid_t place, const std::string& name);
+/// Unit and long_name of a dataset, empty where it has none.
+Label label_of(hid_t place, const std::string& name);
+
+bool has_attribute(hid_t object, const std::string& name);
+std::string text_attribute(hid_t object, const std::string& name);
+std::vector<std::string> texts_attribute(hid_t object, const std::string& name);
+Real real_attribute(hid_t object, const std::string& name);
+std::int64_t integer_attribute(hid_t object, const std::string& name);
+/// The texts in the attribute "names" of a dataset, which its numbers stand for; empty where it has none.
+std::vector<std::string> names_of(hid_t place, const std::string& name);
+
+std::string read_text(hid_t place, const std::string& name);
+std::vector<std::string> read_texts(hid_t place, const std::string& name);
+/// Rows of `width` numbers, row by row; one-dimensional if the width is one.
+std::vector<Real> read_reals(hid_t place, const std::string& name, int width = 1);
+std::vector<Index> read_indices(hid_t place, const std::string& name, int width = 1);
+std::vector<std::int64_t> read_integers(hid_t place, const std::string& name);
+/// The numbers of a dataset of any shape.
+std::vector<Real> read_all_reals(hid_t place, const std::string& name);
+
+/// The field as which a dataset was written.
+Field read_field(hid_t place, const std::string& name, On on);
+/// Fills the rows of the column from the dataset of its name, which must have as many.
+void read_column(hid_t place, Column& column, Index rows);
 
 }  // namespace beadwork::h5

@@ -37,12 +37,6 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// Takes over an identifier that HDF5 has just returned; a negative one is a failure of the machine.
-inline Handle own(hid_t id, Handle::Close close, const std::string& what) {
-  if (id < 0) throw MachineFailure("HDF5 cannot " + what);
-  return {id, close};
-}
-
 /// HDF5 prints its error stack to stderr by itself; the core never prints. Silent while this lives.
 class Silence {
  public:

@@ -3,67 +3,43 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <optional>
+#include <stdexcept>
+#include <unordered_map>
 #include <utility>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/frame_reader.hpp"
+#include "core/io/packing_text.hpp"
 
 namespace beadwork {
 
 namespace {
 
+std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::FrameReader& reader, const record::Frame& frame) {
+  std::unordered_map<std::int64_t, std::size_t> place;
+  for (std::size_t k = 0; k < frame.id.size(); ++k) place.emplace(frame.id[k], k);
+  std::map<std::string, std::vector<std::size_t>> sets;
+  for (const auto& [name, ids] : reader.sets()) {
+    auto& members = sets[name];
+    for (const std::int64_t id : ids)
+      if (const auto found = place.find(id); found != place.end()) members.push_back(found->second);
+    std::sort(members.begin(), members.end());
+    members.erase(std::unique(members.begin(), members.end()), members.end());
+  }
+  return sets;
+}
+
 StoredPacking first_frame(const std::filesystem::path& file) {
-  const record::FrameReader reader(file);
+  const record::FrameReader reader(file, Links::follow);
   if (reader.frames().empty()) throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
   record::Frame frame = reader.read(reader.frames().front());
-  return {std::move(frame.position), std::move(frame.radius)};
-}
-
-std::vector<std::string> words_of(std::string line) {
-  std::replace(line.begin(), line.end(), ',', ' ');
-  return split_words(line);
-}
-
-bool no_number_among(const std::vector<std::string>& words) {
-  return std::none_of(words.begin(), words.end(), [](const std::string& word) { return parse_number(word).has_value(); });
-}
-
-/// The four numbers of a line; nothing if it holds anything else.
-std::optional<std::array<Real, 4>> element_of(const std::vector<std::string>& words) {
-  std::array<Real, 4> numbers;
-  if (words.size() != numbers.size()) return std::nullopt;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const auto number = parse_number(words[k]);
-    if (!number) return std::nullopt;
-    numbers[k] = *number;
-  }
-  return numbers;
-}
-
-StoredPacking lines_of(const std::filesystem::path& file, Real scale) {
-  std::ifstream stream(file);
-  if (!stream) throw MachineFailure(fmt::format("cannot read \"{}\": {}", file.string(), std::strerror(errno)));
-  StoredPacking packing;
-  std::string line;
-  bool names_may_come = true;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
-    const std::string text(trim(line));
-    if (text.empty() || text[0] == '#') continue;
-    const auto words = words_of(text);
-    if (std::exchange(names_may_come, false) && no_number_among(words)) continue;
-    const auto n = element_of(words);
-    if (!n) throw DeckFailure(fmt::format("{}:{}: error: a line holds four numbers, x y z r, got \"{}\"", file.string(), number, text));
-    packing.position.push_back(scale * Vec3((*n)[0], (*n)[1], (*n)[2]));
-    packing.radius.push_back(scale * (*n)[3]);
-  }
+  auto sets = recorded_sets(reader, frame);
+  StoredPacking packing{std::move(frame.position), std::move(frame.radius), std::move(sets)};
+  for (std::size_t k = 0; k < packing.radius.size(); ++k)
+    if (!packing.position[k].allFinite() || !std::isfinite(packing.radius[k]) || packing.radius[k] <= 0)
+      throw DeckFailure(fmt::format("error: element {} of {} has a place that is not finite or a radius that is not > 0", k, file.string()));
   return packing;
 }
 
@@ -74,13 +50,51 @@ bool states_its_unit(const std::filesystem::path& file) {
   return extension == ".h5" || extension == ".hdf5";
 }
 
-StoredPacking read_packing(const std::filesystem::path& file, Real scale) {
-  StoredPacking packing = states_its_unit(file) ? first_frame(file) : lines_of(file, scale);
+std::string why_no_columns(const std::vector<std::string>& columns) {
+  std::vector<Heading> headings;
+  for (const std::string& column : columns) {
+    if (column == "-") continue;
+    try {
+      headings.push_back(heading_of(column));
+    } catch (const std::invalid_argument& wrong) {
+      return wrong.what();
+    }
+    if (headings.back().holds == Holds::other)
+      return "no column is called \"" + column + "\"; known: x, y, z, radius (r), diameter (d), set, id, and - for one that is passed over";
+  }
+  return why_no_element(headings);
+}
+
+StoredPacking read_packing(const std::filesystem::path& file, const TextForm& form, const Pause& pause) {
+  StoredPacking packing = states_its_unit(file) ? first_frame(file) : read_packing_text(file, form, pause);
   if (packing.position.empty()) throw DeckFailure(fmt::format("error: {} holds no element", file.string()));
-  for (std::size_t k = 0; k < packing.radius.size(); ++k)
-    if (!packing.position[k].allFinite() || !std::isfinite(packing.radius[k]) || packing.radius[k] <= 0)
-      throw DeckFailure(fmt::format("error: element {} of {} has a place that is not finite or a radius that is not > 0", k, file.string()));
   return packing;
+}
+
+const std::vector<std::size_t>& members_of(const StoredPacking& packing, const std::string& set, const std::filesystem::path& file) {
+  const auto found = packing.sets.find(set);
+  if (found != packing.sets.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& each : packing.sets) known.push_back(each.first);
+  throw NoSuchSet(fmt::format("{} has no set '{}'{}", file.string(), set, known.empty() ? ", nor any other" : did_you_mean(set, known)));
+}
+
+StoredPacking part_of(const StoredPacking& packing, const std::string& set, const std::filesystem::path& file) {
+  const std::vector<std::size_t>& members = members_of(packing, set, file);
+  StoredPacking part;
+  part.warnings = packing.warnings;
+  std::unordered_map<std::size_t, std::size_t> place;
+  for (const std::size_t k : members) {
+    place.emplace(k, part.position.size());
+    part.position.push_back(packing.position[k]);
+    part.radius.push_back(packing.radius[k]);
+  }
+  for (const auto& [name, others] : packing.sets) {
+    std::vector<std::size_t>& kept = part.sets[name];  // also one that has no member here
+    for (const std::size_t k : others)
+      if (const auto here = place.find(k); here != place.end()) kept.push_back(here->second);
+  }
+  return part;
 }
 
 }  // namespace beadwork

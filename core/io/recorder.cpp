@@ -29,6 +29,8 @@ void write_meta(hid_t place, const RunMeta& meta) {
   h5::write_text(group.id(), "deck", meta.deck);
   h5::write_text(group.id(), "resolved", meta.resolved);
   h5::write_text(group.id(), "deck_sha256", meta.deck_sha256);
+  h5::write_texts(group.id(), "overrides", meta.overrides);
+  h5::write_texts(group.id(), "files", meta.files);
   h5::write_text(group.id(), "version", meta.version);
   h5::write_texts(group.id(), "plugins", meta.plugins);
   h5::write_text(group.id(), "packing", meta.packing);
@@ -110,95 +112,144 @@ void unite(FrameRequest& request, const FrameRequest& more) {
 // A run.h5 that holds frames itself was left by an orderly end; one with links only is nothing that the frames do
 // not say.
 bool holds_frames(const path& record) {
-  std::error_code error;
-  if (!fs::exists(record, error)) return false;
   const h5::Handle file = h5::open_file(record);
-  if (!h5::has(file.id(), "frames")) return false;
   const h5::Handle frames = h5::open_group(file.id(), "frames");
-  for (const std::string& name : h5::names_in(frames.id())) {
-    H5L_info_t info;
-    h5::check(H5Lget_info(frames.id(), name.c_str(), &info, H5P_DEFAULT), "look at frame '" + name + "'");
-    if (info.type == H5L_TYPE_HARD) return true;
-  }
-  return false;
-}
-
-std::vector<path> files_in(const path& folder) {
-  std::vector<path> files;
-  std::error_code error;
-  for (auto it = fs::directory_iterator(folder, error); !error && it != fs::directory_iterator(); it.increment(error))
-    if (it->path().extension() == ".h5") files.push_back(it->path());
-  std::sort(files.begin(), files.end());
-  return files;
+  const auto names = h5::names_in(frames.id());
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return !h5::leads_elsewhere(frames.id(), name); });
 }
 
 bool is_one_file(const path& file) { return file.filename().string().starts_with(one_file); }
 
-// Keeps the frames of a former end under frames/, without copying them and without a moment in which run.h5 is missing.
-void set_aside(const path& record, const path& frames_folder) {
+bool stands(const path& file) {
   std::error_code error;
-  fs::create_directories(frames_folder, error);
-  int number = 0;
-  for (const path& file : files_in(frames_folder)) {
-    if (fs::equivalent(file, record, error)) return;  // a resume that was killed here had already done it
-    if (is_one_file(file)) ++number;
-  }
-  const path aside = frames_folder / fmt::format("{}{}.h5", one_file, number);
-  if (::link(record.c_str(), aside.c_str()) == 0) return;
-  if (::rename(record.c_str(), aside.c_str()) != 0) throw file_failure("set aside", record, errno);
+  return fs::exists(fs::symlink_status(file, error));
+}
+
+// A name beside the file that is still free: run.h5.damaged, run.h5.damaged-2.
+path free_name(const path& file, const std::string& ending) {
+  path name = path(file) += ending;
+  for (int number = 2; stands(name); ++number) name = path(file) += fmt::format("{}-{}", ending, number);
+  return name;
 }
 
 }  // namespace
 
-Recorder::Recorder(const RunFolder& folder, RunMeta meta, Options options)
-    : root_(folder.root()), record_(folder.record()), view_(folder.view()), frames_folder_(folder.frames()),
+Recorder::Recorder(RunFolder& folder, RunMeta meta, Options options)
+    : folder_(&folder), root_(folder.root()), record_(folder.record()), view_(folder.view()), frames_folder_(folder.frames()),
       meta_(std::move(meta)), options_(options) {}
 
-Recorder Recorder::fresh(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain) {
+Recorder Recorder::fresh(RunFolder& folder, RunMeta meta, Options options, const Domain& domain) {
   Recorder recorder(folder, std::move(meta), options);
   recorder.write_master(domain);
   return recorder;
 }
 
-Recorder Recorder::resume(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
+Recorder Recorder::resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
                           std::int64_t step) {
   const h5::Silence silence;
   Recorder recorder(folder, std::move(meta), options);
-  if (holds_frames(recorder.record_)) set_aside(recorder.record_, recorder.frames_folder_);
-  recorder.take_up(step);
+  recorder.take_up(recorder.survey(step));
   recorder.write_master(domain);
   recorder.write_view();
   return recorder;
 }
 
-// A frame that stands both in a former run.h5 and in a file of its own is the one in its own file, which is newer.
-void Recorder::take_up(std::int64_t step) {
-  auto files = files_in(frames_folder_);
-  std::stable_partition(files.begin(), files.end(), is_one_file);
-  for (const path& file : files) take_up_file(file.filename().string(), step);
+std::vector<std::filesystem::path> Recorder::frame_files() const {
+  auto files = folder_->made_in(frames_folder_);
+  std::erase_if(files, [](const path& file) { return file.extension() != ".h5"; });
+  return files;
 }
 
-void Recorder::take_up_file(const std::string& file, std::int64_t step) {
-  const path full = frames_folder_ / file;
-  bool later = false;
-  try {
-    const h5::Handle in = h5::open_file(full);
-    const auto take = [&](const std::string& group_name) {
-      const h5::Handle group = h5::open_group(in.id(), group_name);
-      const std::int64_t at = h5::integer_attribute(group.id(), "step");
-      if (at > step)
-        later = true;
-      else
-        frames_[at] = {"frames/" + file, group_name, xdmf_parts(describe_frame(group.id(), "/frames/" + name_of(at)), "run.h5")};
-    };
-    if (is_one_file(full))
-      for (const std::string& name : h5::names_in(h5::open_group(in.id(), "frames").id())) take("/frames/" + name);
-    else
-      take("/");
-    if (later && !is_one_file(full)) fs::remove(full);
-  } catch (const MachineFailure& failure) {
-    throw MachineFailure(fmt::format("{}. Remove '{}' to go on without it", failure.what(), full.string()));
+// Where a run.h5 that holds frames is kept while the run goes on: a former resume that was killed may have begun to.
+std::filesystem::path Recorder::place_for_record() const {
+  std::error_code error;
+  int number = 0;
+  for (const path& file : frame_files()) {
+    if (!is_one_file(file)) continue;
+    if (fs::equivalent(file, record_, error)) return file;
+    ++number;
   }
+  return frames_folder_ / fmt::format("{}{}.h5", one_file, number);
+}
+
+// A frame that stands both in a former run.h5 and in a file of its own is the one in its own file, which is newer.
+Recorder::Found Recorder::survey(std::int64_t step) {
+  Found found;
+  auto files = frame_files();
+  const auto single = std::stable_partition(files.begin(), files.end(), is_one_file);
+  const auto name = [](const path& file) { return "frames/" + file.filename().string(); };
+  std::for_each(files.begin(), single, [&](const path& file) { look_into(file, "/frames/", name(file), step, found); });
+  if (stands(record_)) {
+    try {
+      found.keep_record = holds_frames(record_);
+    } catch (const MachineFailure& failure) {
+      found.damaged.push_back(record_);
+      notes_.push_back(fmt::format("run.h5 is damaged and was kept under another name; a new one has the frames that stand in files of their own ({})", failure.what()));
+    }
+    const path aside = place_for_record();
+    if (found.keep_record && !stands(aside)) look_into(record_, "/frames/", name(aside), step, found);
+  }
+  std::for_each(single, files.end(), [&](const path& file) { look_into(file, "/", name(file), step, found); });
+  return found;
+}
+
+// Notes the frames in a file: one, which is all of it, or those of a former run.h5.
+void Recorder::look_into(const path& file, const std::string& frames_in, const std::string& as, std::int64_t step, Found& found) {
+  const bool one = frames_in == "/";
+  const auto note_damage = [&](const std::string& what, const std::exception& failure) {
+    if (found.damaged.empty() || found.damaged.back() != file) found.damaged.push_back(file);
+    notes_.push_back(fmt::format("{} is damaged and was left out; the file was kept under another name ({})", what, failure.what()));
+  };
+  const auto take = [&](const h5::Handle& in, const std::string& group_name) {
+    const h5::Handle group = h5::open_group(in.id(), group_name);
+    const std::int64_t at = h5::integer_attribute(group.id(), "step");
+    if (at <= step)
+      found.frames[at] = {as, group_name, xdmf_parts(describe_frame(group.id(), "/frames/" + name_of(at)), "run.h5")};
+    else if (one)
+      found.later.push_back(file);
+  };
+  const std::string relative = file.lexically_relative(root_).string();
+  try {
+    const h5::Handle in = h5::open_file(file);
+    if (one) return take(in, frames_in);
+    for (const std::string& name : h5::names_in(h5::open_group(in.id(), frames_in).id())) {
+      try {
+        if (!h5::leads_elsewhere(h5::open_group(in.id(), frames_in).id(), name)) take(in, frames_in + name);
+      } catch (const std::exception& failure) {
+        note_damage(fmt::format("frame {} of {}", name, relative), failure);
+      }
+    }
+  } catch (const std::exception& failure) {
+    note_damage(relative, failure);
+  }
+}
+
+void Recorder::take_up(Found found) {
+  for (const path& file : found.damaged) keep_damaged(file);
+  if (found.keep_record) {
+    const path aside = place_for_record();
+    if (!stands(aside)) {
+      folder_->claim(aside);
+      // Without a copy, and without a moment in which run.h5 is missing; not every file system can.
+      if (::link(record_.c_str(), aside.c_str()) != 0 && ::rename(record_.c_str(), aside.c_str()) != 0) throw file_failure("set aside", record_, errno);
+    }
+  }
+  std::error_code error;
+  for (const path& file : found.later) fs::remove(file, error);
+  frames_ = std::move(found.frames);
+}
+
+void Recorder::keep_damaged(const path& file) {
+  const path name = free_name(file, ".damaged");
+  folder_->claim(name);
+  const bool still_used = file == record_ || is_one_file(file);  // for the frames in it that are whole
+  if (still_used && ::link(file.c_str(), name.c_str()) == 0) return;
+  std::error_code error;
+  if (still_used)
+    fs::copy_file(file, name, error);
+  else
+    fs::rename(file, name, error);
+  if (error) throw file_failure("set aside", file, error.value());
 }
 
 void Recorder::write(const FrameStamp& stamp, const FrameRequest& request, const Domain& domain) {
@@ -210,9 +261,7 @@ void Recorder::write(const FrameStamp& stamp, const FrameRequest& request, const
   h5::MemoryFile out;
   write_frame(out.id(), stamp, latest_, domain, {options_.single, options_.gzip});
   const std::string name = name_of(stamp.step);
-  std::error_code error;
-  fs::create_directories(frames_folder_, error);
-  if (error) throw file_failure("make folder", frames_folder_, error.value());
+  folder_->claim(frames_folder_ / (name + ".h5"));
   write_atomically(frames_folder_ / (name + ".h5"), {out.image()});
   frames_[stamp.step] = {"frames/" + name + ".h5", "/", xdmf_parts(describe_frame(out.id(), "/frames/" + name), "run.h5")};
   write_master(domain);
@@ -257,6 +306,7 @@ void Recorder::write_view() const {
 std::uintmax_t Recorder::write_one_file(const path& part, const Domain& domain) const {
   const h5::Handle access = h5::take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file");
   H5Pset_file_locking(access.id(), false, true);
+  make_part(record_);
   const h5::Handle out = h5::take(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file");
   reserve(part, room_for_one_file());  // HDF5 does not survive a disk that fills up while it copies an object
   write_all_but_frames(out.id(), meta_, domain);
@@ -274,7 +324,7 @@ std::uintmax_t Recorder::write_one_file(const path& part, const Domain& domain) 
 
 std::uintmax_t Recorder::room_for_one_file() const {
   std::uintmax_t size = fs::file_size(record_) + (1 << 20);
-  for (const path& file : files_in(frames_folder_)) size += fs::file_size(file);
+  for (const path& file : frame_files()) size += fs::file_size(file);
   return size + 4096 * frames_.size();
 }
 
@@ -294,7 +344,7 @@ bool Recorder::consolidate(const Domain& domain, std::string& reason) {
   }
   // From here on run.h5 is whole by itself; files that cannot be removed only take space.
   std::error_code error;
-  for (const path& file : files_in(frames_folder_)) fs::remove(file, error);
+  for (const path& file : frame_files()) fs::remove(file, error);
   fs::remove(frames_folder_, error);
   closed_ = true;
   return true;

@@ -20,6 +20,8 @@ struct RunMeta {
   std::string deck;      ///< text as it was read
   std::string resolved;  ///< text with every value in SI
   std::string deck_sha256;
+  std::vector<std::string> overrides;  ///< "name=value" of the command line
+  std::vector<std::string> files;      ///< "sha256  path" of those that the deck names for data
   std::string version;
   std::vector<std::string> plugins;  ///< "section/tag version path-of-library"
   int threads = 1;
@@ -54,9 +56,10 @@ class Recorder {
   };
 
   /// Writes a run.h5 that has no frames yet.
-  static Recorder fresh(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain);
-  /// Takes up the frames up to and with `step` and drops later ones; breaks are those of the domain, as loaded.
-  static Recorder resume(const RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
+  static Recorder fresh(RunFolder& folder, RunMeta meta, Options options, const Domain& domain);
+  /// Takes up the frames up to and with `step` and drops later ones; breaks are those of the domain, as loaded. Everything is looked at
+  /// before anything is changed. What is damaged is kept under another name (run.h5.damaged), and told in `notes`.
+  static Recorder resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
                          std::int64_t step);
 
   /// Adds a frame. A second request at the same step adds its columns to the first one's.
@@ -66,6 +69,8 @@ class Recorder {
   /// For an orderly end, as the last call: makes run.h5 one file that needs no other. Returns false, with run.h5 and the frames left
   /// as they are and `reason` set, if that cannot be done (disk full).
   bool consolidate(const Domain& domain, std::string& reason);
+  /// What was found damaged and set aside, a sentence each.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   struct Source {
@@ -74,22 +79,37 @@ class Recorder {
     std::vector<XdmfPart> view;  ///< the frame's part of run.xmf
   };
 
-  Recorder(const RunFolder& folder, RunMeta meta, Options options);
-  void take_up(std::int64_t step);
+  using Path = std::filesystem::path;
+  /// What stands in the folder of a run that is to go on.
+  struct Found {
+    std::map<std::int64_t, Source> frames;  ///< up to the step from which it goes on
+    std::vector<Path> later;                ///< frames after it
+    std::vector<Path> damaged;
+    bool keep_record = false;  ///< run.h5 holds frames itself
+  };
+
+  Recorder(RunFolder& folder, RunMeta meta, Options options);
+  Found survey(std::int64_t step);
+  void look_into(const Path& file, const std::string& frames_in, const std::string& as, std::int64_t step, Found& found);
+  void take_up(Found found);
+  std::vector<Path> frame_files() const;
+  Path place_for_record() const;
+  void keep_damaged(const Path& file);
   std::uintmax_t write_one_file(const std::filesystem::path& part, const Domain& domain) const;
   std::uintmax_t room_for_one_file() const;
-  void take_up_file(const std::string& file, std::int64_t step);
   void write_master(const Domain& domain) const;
   void write_view() const;
   void require_open() const;
 
-  std::filesystem::path root_, record_, view_, frames_folder_;
+  RunFolder* folder_;
+  Path root_, record_, view_, frames_folder_;
   RunMeta meta_;
   Options options_;
   std::map<std::int64_t, Source> frames_;  ///< by step
   FrameRequest latest_;
   std::int64_t latest_step_ = -1;
   bool closed_ = false;  ///< consolidated
+  std::vector<std::string> notes_;
 };
 
 }  // namespace beadwork

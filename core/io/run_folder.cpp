@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <map>
 #include <vector>
 
 namespace beadwork {
@@ -16,19 +17,12 @@ namespace {
 using Path = std::filesystem::path;
 using std::error_code;
 
-// The checkpoint goes first and the summary last: a removal that is cut short leaves a folder that still counts as a
-// run, but never one that could be resumed with half of its files.
-const std::vector<std::string> files_of_a_run = {"checkpoint.h5", "run.h5", "run.xmf", "run.log", "resolved.xml", "summary.json", "report.html"};
+// What every run writes. The checkpoint is removed first and the summary last: a removal that is cut short leaves a folder that still
+// counts as a run, but never one that could be resumed with half of its files.
+const std::vector<std::string> files_of_a_run = {"checkpoint.h5", "run.h5", "run.xmf", "run.log", "resolved.xml", "summary.json"};
+constexpr const char* folders_of_a_run[] = {"curves", "frames"};
 
 bool is_part(const Path& file) { return file.extension() == ".part"; }
-
-bool is_file_of_a_run(const Path& entry) {
-  const Path name = is_part(entry) ? entry.stem() : entry.filename();
-  return std::find(files_of_a_run.begin(), files_of_a_run.end(), name.string()) != files_of_a_run.end();
-}
-
-bool is_frame(const Path& entry) { return is_part(entry) || entry.extension() == ".h5"; }
-bool is_curve(const Path& entry) { return is_part(entry) || entry.extension() == ".csv" || entry.extension() == ".json"; }
 
 std::vector<Path> entries_of(const Path& folder) {
   error_code error;
@@ -41,25 +35,16 @@ std::vector<Path> entries_of(const Path& folder) {
 }
 
 void remove_file(const Path& file) {
-  error_code error;
-  std::filesystem::remove(file, error);
-  if (error) throw file_failure("remove", file, error.value());
+  if (::unlink(file.c_str()) != 0 && errno != ENOENT) throw file_failure("remove", file, errno);
 }
 
-// Removes the files that `ours` knows, then the folder if nothing else stands in it.
-void clear_folder(const Path& folder, bool (*ours)(const Path&)) {
+// A link in the place of a folder would lead out of the run.
+bool is_own_folder(const Path& folder) {
   error_code error;
-  if (!std::filesystem::is_directory(std::filesystem::symlink_status(folder, error))) return;
-  for (const Path& entry : entries_of(folder))
-    if (ours(entry)) remove_file(entry);
-  std::filesystem::remove(folder, error);  // refuses a folder that is not empty, which is what we want
-}
-
-void remove_parts(const Path& folder) {
-  error_code error;
-  if (!std::filesystem::is_directory(folder, error)) return;
-  for (const Path& entry : entries_of(folder))
-    if (is_part(entry)) remove_file(entry);
+  const auto status = std::filesystem::symlink_status(folder, error);
+  if (std::filesystem::is_directory(status)) return true;
+  if (!std::filesystem::exists(status)) return false;
+  throw DeckFailure(fmt::format("'{}' is no folder, but something that no run made; remove it", folder.string()));
 }
 
 void make_folder(const Path& folder) {
@@ -68,40 +53,44 @@ void make_folder(const Path& folder) {
   if (error) throw file_failure("make folder", folder, error.value());
 }
 
-// A folder that cannot be written should be known before the packing, not after it.
-void try_writing(const Path& folder) {
-  const Path probe = folder / "run.log.part";
-  const Descriptor file(::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-  if (!file) throw file_failure("write into folder", folder, errno);
-  const int error = write_all(file.number(), "?", 1);
-  ::unlink(probe.c_str());
-  if (error) throw file_failure("write into folder", folder, error);
+bool is_empty_folder(const Path& folder) {
+  error_code error;
+  return std::filesystem::is_directory(std::filesystem::symlink_status(folder, error)) && entries_of(folder).empty();
 }
 
-enum class Content { nothing, run, unknown };
-
-Content content_of(const Path& root) {
+// Nothing that anybody could miss: what a run leaves that is stopped before it has begun, too.
+bool holds_nothing(const Path& root) {
   const auto entries = entries_of(root);
-  const bool run = std::any_of(entries.begin(), entries.end(), is_file_of_a_run);
-  const bool other = std::any_of(entries.begin(), entries.end(), [](const Path& entry) {
-    return entry.filename() != "curves" && entry.filename() != "frames";
+  return std::all_of(entries.begin(), entries.end(), [&](const Path& entry) {
+    return entry.filename() == part_of(Manifest::file_name) || is_empty_folder(entry);
   });
-  if (run) return Content::run;
-  return other ? Content::unknown : entries.empty() ? Content::nothing : Content::run;
 }
 
-void remove_run(const Path& root) {
-  for (const std::string& name : files_of_a_run) {
-    if (name == "run.h5") {
-      clear_folder(root / "frames", is_frame);
-      clear_folder(root / "curves", is_curve);
-    }
-    remove_file(root / name);
-    remove_file(part_of(root / name));
+[[noreturn]] void refuse_content(const Path& root) {
+  error_code error;
+  if (std::filesystem::exists(root / "resolved.xml", error) && std::filesystem::exists(root / "run.log", error))
+    throw DeckFailure(fmt::format("folder '{}' holds a run of a Beadwork that kept no list of its files ({}), so it cannot be told "
+                                  "from others' files and is left alone; choose another folder, or remove it",
+                                  root.string(), Manifest::file_name));
+  throw DeckFailure(fmt::format("folder '{}' is not empty and holds no run (it has '{}'); choose another, nothing is "
+                                "removed from it",
+                                root.string(), entries_of(root).front().filename().string()));
+}
+
+void remove_run(const Path& root, const Manifest& manifest) {
+  std::vector<std::string> files = manifest.files();
+  std::stable_partition(files.begin(), files.end(), [](const std::string& file) { return file == "checkpoint.h5"; });
+  std::stable_partition(files.begin(), files.end(), [](const std::string& file) { return file != "summary.json"; });
+  std::map<Path, bool> there;
+  for (const char* folder : folders_of_a_run) there[folder] = is_own_folder(root / folder);
+  for (const Path file : files) {
+    if (file.has_parent_path() && !there[file.parent_path()]) continue;
+    remove_file(root / file);
+    remove_file(part_of(root / file));
   }
+  error_code error;
+  for (const char* folder : folders_of_a_run) std::filesystem::remove(root / folder, error);  // refuses one that is not empty, as we want
 }
-
-std::string first_of(const Path& root) { return entries_of(root).front().filename().string(); }
 
 }  // namespace
 
@@ -115,18 +104,15 @@ RunFolder RunFolder::fresh(const Path& root, bool overwrite) {
   make_folder(root);
   RunFolder folder(root);
   folder.lock();
-  const Content content = content_of(root);
-  if (content == Content::unknown)
-    throw DeckFailure(fmt::format("folder '{}' is not empty and holds no run (it has '{}'); choose another, nothing is "
-                                  "removed from it",
-                                  root.string(), first_of(root)));
-  if (content == Content::run && !overwrite)
+  const auto former = Manifest::read(root);
+  if (!former && !holds_nothing(root)) refuse_content(root);
+  if (former && !overwrite)
     throw DeckFailure(fmt::format("folder '{}' already holds a run; choose another, or add --overwrite to replace the "
                                   "run, or --resume to continue it",
                                   root.string()));
-  if (content == Content::run) remove_run(root);
-  make_folder(folder.curves());
-  try_writing(root);
+  if (former) remove_run(root, *former);
+  folder.manifest_ = Manifest::begin(root, files_of_a_run);
+  if (!is_own_folder(folder.curves())) make_folder(folder.curves());
   return folder;
 }
 
@@ -140,10 +126,36 @@ RunFolder RunFolder::resume(const Path& root) {
     throw DeckFailure(fmt::format("folder '{}' has no checkpoint.h5, so there is nothing to resume; run the deck "
                                   "without --resume",
                                   root.string()));
-  for (const Path& part : {root, folder.frames(), folder.curves()}) remove_parts(part);
-  make_folder(folder.curves());
-  try_writing(root);
+  folder.manifest_ = Manifest::read(root);
+  if (!folder.manifest_) refuse_content(root);
   return folder;
+}
+
+void RunFolder::clear_leftovers() const {
+  for (const Path& folder : {root_, frames(), curves()}) {
+    if (folder != root_ && !is_own_folder(folder)) continue;
+    for (const Path& entry : entries_of(folder)) {
+      const bool ours = is_part(entry) && manifest_->lists(entry.lexically_relative(root_).replace_extension().string());
+      if (ours) remove_file(entry);
+    }
+  }
+  make_folder(curves());
+}
+
+void RunFolder::claim(const Path& file) {
+  const Path relative = file.lexically_relative(root_);
+  manifest_->claim(relative.string());
+  if (relative.has_parent_path() && !is_own_folder(root_ / relative.parent_path())) make_folder(root_ / relative.parent_path());
+}
+
+std::vector<std::filesystem::path> RunFolder::made_in(const Path& folder) {
+  std::vector<Path> made;
+  manifest_->refresh();
+  if (!is_own_folder(folder)) return made;
+  for (const Path& entry : entries_of(folder))
+    if (manifest_->lists(entry.lexically_relative(root_).string())) made.push_back(entry);
+  std::sort(made.begin(), made.end());
+  return made;
 }
 
 // The folder itself is locked: nothing is left behind, and the system lets go of it however the process ends.

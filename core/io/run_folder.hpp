@@ -1,10 +1,14 @@
 #pragma once
-// The folder that a run writes, and where its files stand. One run at a time: the folder stays locked while this lives.
+// The folder that a run writes, where its files stand, and which of them it made. One run at a time: the folder stays locked while
+// this lives.
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/io/file.hpp"
+#include "core/io/manifest.hpp"
 
 namespace beadwork {
 
@@ -12,12 +16,19 @@ class RunFolder {
  public:
   using Path = std::filesystem::path;
 
-  /// Makes the folder, or takes an empty one. One that holds a run is refused unless `overwrite`, which removes what
-  /// a run writes and nothing else; one that holds something else is refused always. DeckFailure for what the user
-  /// asks and should not get, MachineFailure for what the machine cannot do.
+  /// Makes the folder, or takes an empty one. One that holds a run is refused unless `overwrite`, which removes the files that the
+  /// run made and nothing else; one that holds something else is refused always. DeckFailure for what the user asks and should not
+  /// get, MachineFailure for what the machine cannot do.
   static RunFolder fresh(const Path& root, bool overwrite);
-  /// Takes the folder of a run that wrote a checkpoint; DeckFailure if there is none.
+  /// Takes the folder of a run that wrote a checkpoint, and changes nothing in it; DeckFailure if there is none.
   static RunFolder resume(const Path& root);
+  /// Before a resumed run writes: removes what a kill left half written, and makes folders that are missing.
+  void clear_leftovers() const;
+
+  /// To be called before a file of the folder is made that has no place below. DeckFailure if somebody else's stands there.
+  void claim(const Path& file);
+  /// The files that runs made in a folder of this one, and that are there, sorted.
+  std::vector<Path> made_in(const Path& folder);
 
   const Path& root() const { return root_; }
   Path summary() const { return root_ / "summary.json"; }
@@ -36,6 +47,7 @@ class RunFolder {
 
   Path root_;
   Descriptor lock_;
+  std::optional<Manifest> manifest_;  ///< always there once made
 };
 
 }  // namespace beadwork

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "core/base/readable.hpp"
 #include "core/base/text.hpp"
 #include "core/deck/read.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/plugin/stamp.hpp"
 
 namespace beadwork {
@@ -43,7 +43,7 @@ std::unique_ptr<Scene> Scene::assemble(const Deck& deck, const Catalogue& catalo
 std::vector<Constraint> Stage::constraints() const {
   std::vector<Constraint> all;
   for (const Load* load : loads)
-    for (Constraint& c : load->constraints()) all.push_back(std::move(c));
+    for (Constraint& c : blaming(*load, "constraints", [&] { return load->constraints(); })) all.push_back(std::move(c));
   return all;
 }
 
@@ -62,38 +62,45 @@ const BondLaw* Scene::law_of(const std::string& family) const {
   return nullptr;
 }
 
-std::string Scene::path_of(const std::string& path) const {
-  return path_beside(deck_path, path);
+std::vector<std::string> Scene::files() const {
+  std::vector<std::string> all;
+  for (const auto& plugin : plugins)
+    for (const ParamBase* p : plugin->params())
+      if (p->info().role == Role::file)
+        for (const std::string& path : p->names()) all.push_back(path);
+  return all;
 }
 
 void Assembly::run() {
   scene_.domain = std::make_unique<Domain>();
   read_root();
   if (complaints_.errors() == 0) {
-    for (const auto& plugin : scene_.plugins) plugin->check(complaints_);
-    for (const auto& plugin : scene_.plugins) plugin->choose();
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "family", [&] { return plugin->family(); });
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "check", [&] { plugin->check(complaints_); });
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "choose", [&] { plugin->choose(); });
   }
   merge_common_into_stages();
   check_names();
   for (Stage& stage : scene_.stages) check_stage(stage);
-  for (const auto& [watcher, pulled] : waits_for_pull_)
-    if (!pulled && is_read(Kind::load)) complaints_.error(watcher->moments.at(), "'at' waits for a displacement, but nothing in <load> is pulled");
   if (is_read(Kind::fill) && std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
+  if (is_read(Kind::load)) complain_of_hopeless();
   if (complaints_.errors() == 0) {  // else a law or a load may be missing that is only misspelt
-    for (const Stage& stage : scene_.stages) stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_);
+    for (const Stage& stage : scene_.stages)
+      blaming(stage.mover(), "check_stage", [&] { stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_); });
     check_watchers();
   }
   deck_.scope.complain_about_unused(*deck_.root, complaints_);
   if (complaints_.errors() == 0) lay_out_fields();
+  if (complaints_.errors() == 0) resolve();
 }
 
 void Assembly::read_root() {
   const Node& root = *deck_.root;
-  PlainNode plain{"scene", {}, {}};
   scene_.name = std::filesystem::path(deck_.path).stem().string();
   scene_.deck_path = deck_.path;
   scene_.deck_sha256 = deck_.sha256;
+  scene_.overrides = deck_.overrides;
   if (!deck_.sources.empty()) scene_.deck_text = deck_.sources.front()->text;
   for (const Attribute& attribute : root.attributes) {
     if (attribute.name == "name") {
@@ -107,24 +114,20 @@ void Assembly::read_root() {
                                                        did_you_mean(attribute.name, {"name", "seed", "plugins"})));
     }
   }
-  plain.attributes = {{"name", scene_.name}, {"seed", std::to_string(scene_.seed)}};
-  read_sections(root, common_, plain, false);
-  scene_.resolved = resolved_xml(plain);
+  read_sections(root, common_, false);
 }
 
-void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain, bool inside_stage) {
+void Assembly::read_sections(const Node& parent, Stage& stage, bool inside_stage) {
   for (const auto& child : parent.children) {
     const auto kind = kind_of(child->tag);
     if (kind && *kind != Kind::derive && !(inside_stage && *kind == Kind::fill)) {
       for (const Attribute& attribute : child->attributes)
         complaints_.error(attribute.name_at, fmt::format("<{}> takes no attributes", child->tag));
-      PlainNode& section = plain.children.emplace_back(PlainNode{child->tag, {}, {}});
-      read_section(*kind, *child, stage, section);
+      read_section(*kind, *child, stage);
     } else if (child->tag == "stage" && !inside_stage) {
       Stage& made = scene_.stages.emplace_back();
       made.at = child->at;
       made.name = fmt::format("stage-{}", scene_.stages.size());
-      PlainNode& node = plain.children.emplace_back(PlainNode{"stage", {}, {}});
       for (const Attribute& attribute : child->attributes) {
         if (attribute.name == "name") {
           if (const auto text = read_text(attribute, deck_.scope, complaints_)) made.name = *text;
@@ -134,12 +137,10 @@ void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain,
                                                            did_you_mean(attribute.name, {"name", "until"})));
         }
       }
-      node.attributes.push_back({"name", made.name});
-      if (const Attribute* until = child->find("until")) node.attributes.push_back({"until", until->value});
       const auto [there, fresh] = until_nodes_.try_emplace(made.name, child.get());
       if (!fresh)
         complaints_.error(child->at, fmt::format("stage '{}' exists already, made at {}", made.name, there->second->at.where()));
-      read_sections(*child, made, node, true);
+      read_sections(*child, made, true);
     } else {
       const auto known = section_names(inside_stage);
       note_unread(*child);
@@ -150,9 +151,9 @@ void Assembly::read_sections(const Node& parent, Stage& stage, PlainNode& plain,
   }
 }
 
-void Assembly::read_section(Kind kind, const Node& section, Stage& stage, PlainNode& plain) {
+void Assembly::read_section(Kind kind, const Node& section, Stage& stage) {
   for (const auto& node : section.children) {
-    std::unique_ptr<Plugin> plugin = catalogue_.make(kind, node->tag);
+    std::unique_ptr<Plugin> plugin = make(kind, node->tag, node->at);
     if (!plugin) {
       complain_of_tag(kind, *node);
       note_unread(*node);
@@ -169,10 +170,14 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage, PlainN
       }
     for (const ParamBase* p : plugin->params())
       if (p->in_deck() && !p->given()) unread_kinds_.insert(kind);
-    plain.children.push_back(resolved(*plugin));
     enlist(*plugin, kind, stage);
     scene_.plugins.push_back(std::move(plugin));
   }
+}
+
+std::unique_ptr<Plugin> Assembly::make(Kind kind, const std::string& tag, const Location& at) {
+  if (const std::string library = catalogue_.named_library(kind, tag); !library.empty()) libraries_.insert(library);
+  return catalogue_.make(kind, tag, at.where());
 }
 
 void Assembly::complain_of_tag(Kind kind, const Node& node) {
@@ -206,13 +211,6 @@ void Assembly::enlist(Plugin& plugin, Kind kind, Stage& stage) {
   }
 }
 
-PlainNode Assembly::resolved(const Plugin& plugin) const {
-  PlainNode node{plugin.tag(), {}, {}};
-  for (const ParamBase* p : plugin.params())
-    if (p->given()) node.attributes.push_back({p->info().name, p->text()});
-  return node;
-}
-
 void Assembly::merge_common_into_stages() {
   if (scene_.stages.empty()) {
     common_.name = "run";
@@ -243,7 +241,10 @@ void Assembly::check_stage(Stage& stage) {
 }
 
 void Assembly::check_watchers() {
-  for (const Watcher* watcher : watchers()) watcher->check_stages(constraints_seen_by(*watcher), complaints_);
+  for (const Watcher* watcher : watchers()) {
+    const auto seen = constraints_seen_by(*watcher);
+    blaming(*watcher, "check_stages", [&] { watcher->check_stages(seen, complaints_); });
+  }
 }
 
 std::vector<Constraint> Assembly::constraints_seen_by(const Watcher& watcher) const {
@@ -280,11 +281,25 @@ void Assembly::compile_until(Stage& stage) {
   }
   stage.until = Until::compile(text, at, deck_.scope, complaints_);
   if (!stage.until) return;
-  for (const std::string& set : stage.until->sets()) {
-    bool driven = false;
-    for (const Constraint& c : stage.constraints()) driven |= c.driven && c.set == set;
-    if (!driven && is_read(Kind::load)) complaints_.error(at, fmt::format("'until' watches set '{}', which nothing in <load> drives", set));
+  const auto prospects = stage.until->prospects(stage.constraints());
+  const bool ends = std::any_of(prospects.begin(), prospects.end(), [](const Until::Prospect& p) { return p.why_never.empty(); });
+  for (const Until::Prospect& p : prospects) {
+    if (!ends) endless_.push_back(p);
+    note_prospect("until", p.at, p.why_never);
   }
+}
+
+// What stands outside of the stages may come in one of them only.
+void Assembly::note_prospect(const std::string& attribute, const Location& at, const std::string& why_never) {
+  Hope& hope = hopes_[fmt::format("{} of '{}'", at.where(), attribute)];
+  hope.comes |= why_never.empty();
+  if (!why_never.empty()) hope = {at, fmt::format("'{}' {}", attribute, why_never), hope.comes};
+}
+
+void Assembly::complain_of_hopeless() {
+  for (const Until::Prospect& p : endless_) complaints_.error(p.at, fmt::format("'until' {}", p.why_never));
+  for (const auto& [place, hope] : hopes_)
+    if (!hope.comes) complaints_.error(hope.at, hope.why_never);
 }
 
 // The moments of a watcher that stands outside of the stages count anew in each.
@@ -293,9 +308,7 @@ void Assembly::compile_marks(Stage& stage) {
     auto& marks = stage.marks.emplace_back();
     if (!watcher->moments.given()) continue;
     marks = Mark::list(*watcher->moments, "at", watcher->moments.at(), deck_.scope, complaints_);
-    if (std::none_of(marks.begin(), marks.end(), [](const Mark& m) { return m.what == Mark::What::displacement; })) continue;
-    bool& pulled = waits_for_pull_[watcher];
-    for (const Constraint& c : stage.constraints()) pulled |= c.driven;
+    for (const Mark& mark : marks) note_prospect("at", mark.at, mark.why_never(stage.constraints()));
   }
 }
 

@@ -18,19 +18,27 @@ class Assembly {
  private:
   // plugins of the deck (assembly.cpp)
   void read_root();
-  void read_sections(const Node& parent, Stage& stage, PlainNode& plain, bool inside_stage);
-  void read_section(Kind kind, const Node& section, Stage& stage, PlainNode& plain);
+  void read_sections(const Node& parent, Stage& stage, bool inside_stage);
+  void read_section(Kind kind, const Node& section, Stage& stage);
+  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag, const Location& at);
   void complain_of_tag(Kind kind, const Node& node);
   void note_unread(const Node& node);
   bool is_read(Kind kind) const;
   void enlist(Plugin& plugin, Kind kind, Stage& stage);
-  PlainNode resolved(const Plugin& plugin) const;
   void merge_common_into_stages();
   void check_stage(Stage& stage);
   void check_watchers();
   std::vector<Constraint> constraints_seen_by(const Watcher& watcher) const;
   void compile_until(Stage& stage);
   void compile_marks(Stage& stage);
+  void note_prospect(const std::string& attribute, const Location& at, const std::string& why_never);
+  void complain_of_hopeless();
+
+  // the deck as it was understood (assembly_resolved.cpp)
+  void resolve();
+  void resolve_sections(const Node& parent, PlainNode& plain, std::size_t& plugins, std::size_t& stages);
+  PlainNode resolved(const Plugin& plugin);
+  std::string resolved(const Plugin& plugin, const ParamBase& param);
 
   // names (assembly_names.cpp)
   void check_names();
@@ -52,6 +60,8 @@ class Assembly {
   bool meet(const Plugin& reader, const FieldUse& use);
   void complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names);
   void meet_names(const Plugin& reader, const ParamBase& fields);
+  void provide_all(const Plugin& reader);
+  bool can_derive(const std::string& name) const;
   bool provide(On on, const std::string& name, const std::string& family);
   bool derive(const std::string& name, const Plugin& reader);
   std::vector<std::string> providable(On on, const std::string& family) const;
@@ -63,7 +73,14 @@ class Assembly {
   Scene& scene_;
   Stage common_;
   std::map<std::string, const Node*> until_nodes_;
-  std::map<const Watcher*, bool> waits_for_pull_;  ///< and whether something is pulled in one of its stages
+  struct Hope {
+    Location at;
+    std::string why_never;
+    bool comes = false;  ///< in one of the stages in which it stands
+  };
+  std::map<std::string, Hope> hopes_;  ///< what 'until' and 'at' wait for, by place
+  std::vector<Until::Prospect> endless_;  ///< of stages that would never end
+  std::set<std::string> libraries_;    ///< that a deck has to name, of the plugins in use
   std::map<std::string, int> counts_;
   // One mistake, one message: what follows only from a tag, an attribute or a value that could not be read is not told too.
   std::set<Kind> unread_kinds_;         ///< sections in which something could not be read

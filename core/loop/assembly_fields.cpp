@@ -26,7 +26,7 @@ void Assembly::choose_rotations() {
                 (use->field().name == "orientation" || use->field().name == "torque" || use->field().name == "spin");
   }
   for (const auto& plugin : scene_.plugins)
-    if (auto* mover = dynamic_cast<Mover*>(plugin.get())) mover->choose_rotations(wanted);
+    if (auto* mover = dynamic_cast<Mover*>(plugin.get())) blaming(*mover, "choose_rotations", [&] { mover->choose_rotations(wanted); });
 }
 
 void Assembly::add_families() {
@@ -109,6 +109,10 @@ void Assembly::complain_of_missing(const Plugin& reader, On on, const std::vecto
 // Fields asked for by name, wherever they are: on the elements, on every family that has them.
 void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
   for (const std::string& name : fields.names()) {
+    if (name == every_field) {
+      provide_all(reader);
+      continue;
+    }
     bool found = derive(name, reader) || scene_.domain->elements().find(name) || provide(On::elements, name, "");
     for (const std::string& family : scene_.families) {
       const bool offered = provide(On::bonds, name, family);
@@ -122,6 +126,28 @@ void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
     complaints_.error(fields.at(name), fmt::format("'{}' names field \"{}\", which nothing in this deck provides{}", fields.info().name,
                                                name, did_you_mean(name, known)));
   }
+}
+
+// Whatever somebody offers, and what can be derived of it.
+void Assembly::provide_all(const Plugin& reader) {
+  for (const std::string& name : providable(On::elements, "")) {
+    if (!catalogue_.find(Kind::derive, name))
+      provide(On::elements, name, "");
+    else if (can_derive(name))
+      derive(name, reader);
+  }
+  for (const std::string& family : scene_.families)
+    for (const std::string& name : providable(On::bonds, family))
+      if (provide(On::bonds, name, family)) scene_.section_readers.insert(&reader);
+}
+
+// Whether what a derived field is found from is there or offered.
+bool Assembly::can_derive(const std::string& name) const {
+  const std::unique_ptr<Plugin> plugin = catalogue_.make(Kind::derive, name);
+  const auto known = providable(On::elements, "");
+  return std::all_of(plugin->uses().begin(), plugin->uses().end(), [&](const FieldUse* use) {
+    return use->verb() != Verb::reads || (use->field().on == On::elements && std::find(known.begin(), known.end(), use->field().name) != known.end());
+  });
 }
 
 // Takes up an offer: makes the column of a field that some plugin writes only if it is read. What a filling plugin
@@ -149,7 +175,7 @@ bool Assembly::derive(const std::string& name, const Plugin& reader) {
       scene_.derived_for[there].insert(readers.begin(), readers.end());
       return true;
     }
-  std::unique_ptr<Plugin> plugin = catalogue_.make(Kind::derive, name);
+  std::unique_ptr<Plugin> plugin = make(Kind::derive, name, reader.at());
   Node silent;
   silent.tag = name;
   silent.at = deck_.root->at;

@@ -96,8 +96,7 @@ void Assembly::check_files() {
   for (const auto& plugin : scene_.plugins)
     for (const ParamBase* p : plugin->params()) {
       if (p->info().role != Role::file) continue;
-      for (const std::string& name : p->names()) {
-        const std::string path = scene_.path_of(name);
+      for (const std::string& path : p->names()) {
         if (const std::string why = why_unreadable(path); !why.empty())
           complaints_.error(p->at(), fmt::format("cannot read \"{}\": {}", path, why));
       }

@@ -3,24 +3,18 @@
 
 #include <fmt/format.h>
 
-#include <new>
-
-#include "core/base/failure.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {
 
-/// Does `task`, a call of this plugin. What is a Fault already explains itself; anything else becomes a PhysicsFailure.
+/// Does `task`, a call of this plugin.
 template <class F>
 decltype(auto) blaming(const Plugin& plugin, const Moment& moment, const F& task) {
   try {
     return task();
-  } catch (const Fault&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw PhysicsFailure(fmt::format("{}: error: step {}: plugin {} failed: {}", plugin.at().where(), moment.step, plugin.id(), error.what()));
+  } catch (...) {
+    blame(fmt::format("{}: error: step {}: plugin {} failed", plugin.at().where(), moment.step, plugin.id()));
   }
 }
 

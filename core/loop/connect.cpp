@@ -2,12 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "core/base/failure.hpp"
 #include "core/domain/neighbours.hpp"
+#include "core/domain/reach.hpp"
+#include "core/plugin/blame.hpp"
 
 namespace beadwork {
 
 namespace {
+
+using Warn = std::function<void(const std::string&)>;
 
 std::vector<char> membership(const Domain& domain, const std::string& set) {
   std::vector<char> member(static_cast<std::size_t>(domain.size()), 0);
@@ -15,34 +22,76 @@ std::vector<char> membership(const Domain& domain, const std::string& set) {
   return member;
 }
 
-}  // namespace
-
-std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain) {
-  const std::vector<char> one = membership(domain, (*law.between)[0]);
-  const std::vector<char> other = membership(domain, (*law.between)[1]);
+/// The elements of the two sets, which alone are searched, and the pairs among them.
+struct Candidates {
   std::vector<Vec3> position;
   std::vector<Real> radius;
-  std::vector<Index> row_of;  // only the elements of the two sets are searched
+  std::vector<Index> row_of;
+  std::vector<Pair> pairs;
+
+  Index row(Index k) const { return row_of[static_cast<std::size_t>(k)]; }
+};
+
+std::vector<Pair> near_ones(const BondLaw& law, const Candidates& among, const Pause& pause) {
+  try {
+    return find_pairs(among.position, among.radius, *law.gap, 0, pause);
+  } catch (const std::invalid_argument& too_many) {
+    refuse(law.gap.in_deck() ? law.gap.at() : law.at(), fmt::format("family '{}': {}", *law.name, too_many.what()));
+  }
+}
+
+Candidates candidates(const BondLaw& law, const Domain& domain, const Pause& pause) {
+  const std::vector<char> one = membership(domain, (*law.between)[0]);
+  const std::vector<char> other = membership(domain, (*law.between)[1]);
+  Candidates among;
   const auto x = domain.elements().column("position").view<Vec3>();
   const auto r = domain.elements().column("radius").view<Real>();
   for (Index row = 0; row < domain.size(); ++row) {
     if (!one[static_cast<std::size_t>(row)] && !other[static_cast<std::size_t>(row)]) continue;
-    position.push_back(x[row]);
-    radius.push_back(r[row]);
-    row_of.push_back(row);
+    among.position.push_back(x[row]);
+    among.radius.push_back(r[row]);
+    among.row_of.push_back(row);
   }
-  std::vector<std::pair<Index, Index>> pairs;
-  for (const Pair& near : find_pairs(position, radius, *law.gap)) {
-    const auto i = static_cast<std::size_t>(row_of[static_cast<std::size_t>(near.i)]);
-    const auto j = static_cast<std::size_t>(row_of[static_cast<std::size_t>(near.j)]);
-    const bool joins = (one[i] && other[j]) || (one[j] && other[i]);
-    if (joins && law.accepts(domain, static_cast<Index>(i), static_cast<Index>(j)))
-      pairs.emplace_back(static_cast<Index>(i), static_cast<Index>(j));
+  for (const Pair& near : near_ones(law, among, pause)) {
+    const Index i = among.row(near.i), j = among.row(near.j);
+    const auto at_i = static_cast<std::size_t>(i), at_j = static_cast<std::size_t>(j);
+    const bool joins = (one[at_i] && other[at_j]) || (one[at_j] && other[at_i]);
+    if (joins && blaming(law, "accepts", [&] { return law.accepts(domain, i, j); })) among.pairs.push_back(near);
   }
-  if (pairs.empty())
+  return among;
+}
+
+/// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it does not.
+void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, const Warn& warn) {
+  const std::vector<Index> between = elements_between(among.position, among.radius, among.pairs, pause);
+  const auto far = std::count_if(between.begin(), between.end(), [](Index k) { return k >= 0; });
+  if (far == 0) return;
+  if (*law.neighbours == "next") {
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < between.size(); ++p)
+      if (between[p] < 0) among.pairs[kept++] = among.pairs[p];
+    among.pairs.resize(kept);
+    return;
+  }
+  warn(fmt::format("{}: {} of the {} bonds of family '{}' reach over an element that lies between the two, since elements overlap or 'gap' is wide: "
+                   "they add to its stiffness; neighbours=\"next\" leaves them out",
+                   law.at().where(), far, among.pairs.size(), *law.name));
+}
+
+}  // namespace
+
+bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) { return !candidates(law, domain, pause).pairs.empty(); }
+
+std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause, const Warn& warn) {
+  Candidates among = candidates(law, domain, pause);
+  if (among.pairs.empty())
     refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = {} of the sum of "
                                  "their radii between them; a larger 'gap' or another set may help",
                                  *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
+  mind_far_ones(law, among, pause, warn);
+  std::vector<std::pair<Index, Index>> pairs;
+  pairs.reserve(among.pairs.size());
+  for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));
   return pairs;
 }
 

@@ -30,6 +30,13 @@ Real driven_force(std::span<const Constraint> constraints, const std::string& se
   return largest(constraints, set, [](const Constraint& c) { return c.reaction; });
 }
 
+std::optional<Real> reach_of(std::span<const Constraint> constraints, const std::string& set) {
+  std::optional<Real> reach;
+  for (const Constraint& c : constraints)
+    if (c.driven && (set.empty() || c.set == set)) reach = std::max(reach.value_or(0), c.reach);
+  return reach;
+}
+
 const std::vector<Variable>& Mark::variables() {
   static const std::vector<Variable> three{
       {"time", find_unit("s")->dimension}, {"step", find_unit("1")->dimension}, {"displacement", find_unit("m")->dimension}};
@@ -72,12 +79,35 @@ std::vector<Mark> Mark::list(const std::string& text, const std::string& attribu
       complaints.error(place, fmt::format("'{}' wants moments such as \"0.3 mm, 1 ms\", got \"{}\"", attribute, text));
       continue;
     }
+    if (word == "end") continue;  // every watcher looks at the end
     const auto quantity = Expression::compile(word, place, scope, {}, complaints);
     if (!quantity) continue;
     if (const auto mark = of(*quantity, attribute, "a time, a number of steps or a displacement", word, place, complaints))
       marks.push_back(*mark);
   }
   return marks;
+}
+
+std::string Mark::si() const {
+  static constexpr const char* units[] = {"s", "1", "m"};
+  return format_quantity(value, units[static_cast<int>(what)]);
+}
+
+std::string Mark::words() const {
+  const std::vector<std::string> parts = split_words(text);
+  const bool is_plain = parts.size() <= 2 && parse_number(parts.front()) && find_unit(parts.size() == 1 ? "1" : parts.back());
+  const std::string amount = is_plain ? text : fmt::format("{} = {}", text, si());
+  if (what == What::steps) return amount + (value == 1 ? " step" : " steps");
+  return amount + (what == What::time ? " of time" : " of displacement");
+}
+
+std::string Mark::why_never(std::span<const Constraint> constraints) const {
+  if (what != What::displacement || value == 0) return "";
+  const auto reach = reach_of(constraints, "");
+  if (!reach) return "waits for a displacement, but nothing in <load> is pulled";
+  constexpr Real rounding = 1e-9;
+  if (*reach >= (1 - rounding) * value) return "";
+  return fmt::format("waits for a displacement of {}, but what is pulled moves {} at most", text, format_quantity(*reach, "m"));
 }
 
 bool Mark::reached(const Moment& moment, std::span<const Constraint> constraints) const {

@@ -17,6 +17,8 @@ namespace beadwork {
 /// constraints; on no set: over all.
 Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real from, Real to);
 Real driven_force(std::span<const Constraint> constraints, const std::string& set);
+/// The largest displacement [m] that these constraints ever give of a set, or of any; nothing where none is driven.
+std::optional<Real> reach_of(std::span<const Constraint> constraints, const std::string& set);
 
 struct Mark {
   enum class What { time, steps, displacement };
@@ -31,10 +33,14 @@ struct Mark {
   /// The complaint says: 'attribute' wants `wanted`, got "text".
   static std::optional<Mark> of(const Expression& quantity, const std::string& attribute, const std::string& wanted,
                                 const std::string& text, const Location& at, Complaints& complaints);
-  /// "0.3 mm, 1 ms, 5000": what can be read; of the rest it is complained.
+  /// "0.3 mm, 1 ms, 5000, end": what can be read; of the rest it is complained. The end needs no mark: every watcher looks then.
   static std::vector<Mark> list(const std::string& text, const std::string& attribute, const Location& at, const Scope& scope,
                                 Complaints& complaints);
   bool reached(const Moment& moment, std::span<const Constraint> constraints) const;
+  std::string si() const;     ///< "0.0003 m", as any deck may give it
+  std::string words() const;  ///< what is reached: "0.3 mm of displacement", "5000 steps"
+  /// Why it can never come under these constraints, or "".
+  std::string why_never(std::span<const Constraint> constraints) const;
 };
 
 }  // namespace beadwork

@@ -1,20 +1,35 @@
 #include "core/loop/run.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <set>
 
 #include "core/base/failure.hpp"
+#include "core/base/parallel.hpp"
+#include "core/base/sha256.hpp"
 #include "core/loop/blame.hpp"
+#include "core/loop/handed_over.hpp"
 #include "core/loop/run_curve.hpp"
 
 namespace beadwork {
 
 Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options)
-    : scene_(scene), catalogue_(catalogue), folder_(folder), options_(std::move(options)), began_(Clock::now()), saved_(began_), shown_(began_) {
-  omp_set_num_threads(options_.threads);
+    : scene_(scene),
+      catalogue_(catalogue),
+      folder_(folder),
+      options_(std::move(options)),
+      offered_(scene),
+      repeats_(options_.say),
+      began_(Clock::now()),
+      saved_(began_),
+      shown_(began_) {
+  use_threads(options_.threads);
+  for (const std::string& path : scene_.files()) files_[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
+  for (const Stage& stage : scene_.stages)
+    for (const Failure* failure : stage.failures)
+      if (std::none_of(figures_.largest_uses.begin(), figures_.largest_uses.end(), [&](const auto& known) { return known.first == failure; }))
+        figures_.largest_uses.emplace_back(failure, LargestUse{});
   gather_constraints();
   add_state_columns();
   bind_all();
@@ -58,7 +73,12 @@ void Run::go_through_stages() {
     if (s > first) let_go(scene_.stages[s]);
     moment_.stage = static_cast<int>(s);
     const bool resumed = options_.resume && s == first;
-    enter(stage(), resumed);
+    try {
+      enter(stage(), resumed);
+    } catch (const DeckFailure& refused) {
+      if (s == 0) throw;
+      throw PhysicsFailure(fmt::format("{}\nso stage '{}' cannot begin, at step {}", refused.what(), stage().name, moment_.step));
+    }
     auto from = Clock::now();
     while (!over()) {
       step();
@@ -67,8 +87,9 @@ void Run::go_through_stages() {
       from = save_now_and_then(now) ? Clock::now() : now;  // a checkpoint is no part of the loop
     }
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
+    save();  // before the last look, so that a run that is given another end has rows as if it had never stopped
+    look_at_end();
     tell_of_missed_moments();
-    save();  // the next stage may fail at its start
   }
 }
 
@@ -86,19 +107,10 @@ void Run::enter(Stage& stage, bool resumed) {
   domain().cut_families();
   domain().clear_halo();  // families that act no longer leave nothing behind to be gathered
   bind_all();
+  offered_.begin_stage();
   if (!resumed && moment_.step == 0 && stage_number() == 0)
     for (Derived* derived : scene_.derived) blaming(*derived, moment_, [&] { derived->derive(domain()); });  // where all begins
-  if (!resumed) {
-    for (auto& [law, table] : laws_) {
-      if (scene_.first_stage(*law) != stage_number()) continue;
-      blaming(*law, moment_, [&, law = law, table = table] { law->connect(domain(), *table); });
-      const std::string remark = law->remark();
-      options_.say(fmt::format("bond family '{}': {} bonds{}{}", law->family(), table->size(), remark.empty() ? "" : "; ", remark));
-    }
-    for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->clear(domain()); });
-    for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });
-    check_constraints(stage, constraints());
-  }
+  if (!resumed) connect(stage);
   begin_constraints();
   rates_are_read_ = reads_rates(stage);
   for (auto& [law, table] : laws_) live_[table] = table->live();
@@ -106,17 +118,26 @@ void Run::enter(Stage& stage, bool resumed) {
   if (!resumed) count_brought();
   if (watched_) reserve_room();
   whole_ = true;
-  if (!resumed)
-    look();
-  else if (owed_ > 0)
-    look(stage.watchers.size() - owed_);
+  if (!resumed) return look();
+  frame_anew();
+  if (owed_ > 0) look(stage.watchers.size() - owed_);
+}
+
+void Run::connect(Stage& stage) {
+  for (auto& [law, table] : laws_) {
+    if (scene_.first_stage(*law) != stage_number()) continue;
+    blaming(*law, moment_, [&, law = law, table = table] { law->connect(domain(), *table); });
+    const std::string remark = blaming(*law, "remark", [&, law = law] { return law->remark(); });
+    options_.say(fmt::format("bond family '{}': {} bonds{}{}", law->family(), table->size(), remark.empty() ? "" : "; ", remark));
+  }
+  for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->clear(domain()); });
+  for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });
 }
 
 bool Run::over() {
   if (options_.interrupt && *options_.interrupt) {
     complete();
-    throw Interrupted(fmt::format("interrupted at step {}; go on with: beadwork run {} --out {} --resume", moment_.step,
-                                  scene_.deck_path, folder_.root().string()));
+    throw Interrupted(fmt::format("interrupted at step {}; go on with: {}", moment_.step, options_.commands.go_on));
   }
   raise(peaks_[stage_number()], moment_, constraints());
   return stage().until->reached(moment_, constraints(), peaks_[stage_number()]);
@@ -125,6 +146,7 @@ bool Run::over() {
 // Table 1 of the paper: predict, forces, Newton's law, correct; then what may break, and who looks.
 void Run::step() {
   whole_ = false;
+  offered_.begin_step();
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   if (rates_are_read_) complete();
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
@@ -133,6 +155,7 @@ void Run::step() {
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
   whole_ = true;
   look();
+  former_summary_.reset();  // from here on it is this session that ends, one way or another
 }
 
 // So that what summary.json says of a failed run's energies stands for one moment.
@@ -149,23 +172,27 @@ void Run::complete() {
 }
 
 void Run::evaluate(bool settle) {
-  Evaluation how{true, settle, sections_wanted(), stage().mover().in_single()};
-  for (auto& [law, table] : laws_) {
-    blaming(*law, moment_, [&, law = law, table = table] { law->act(domain(), *table, how); });
-    how.clear = false;
-  }
-  if (how.clear) domain().clear_loads();
+  if (laws_.empty()) domain().clear_loads();
+  act({true, settle, sections_wanted(), stage().mover().in_single()});
   domain().gather();
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->push(domain(), moment_); });
 }
 
+void Run::act(Evaluation how) {
+  for (auto& [law, table] : laws_) {
+    blaming(*law, moment_, [&, law = law, table = table] { law->act(domain(), *table, how); });
+    how.clear = false;
+  }
+  if (how.sections) offered_.note_told();
+}
+
 bool Run::sections_wanted() const {
-  if (scene_.section_readers.empty()) return false;
+  if (!offered_.is_read()) return false;
   const Stage& now = scene_.stages[stage_number()];
   for (const Failure* failure : now.failures)
     if (moment_.step % *failure->every == 0) return true;
   for (std::size_t w = 0; w < now.watchers.size(); ++w)
-    if (scene_.section_readers.contains(now.watchers[w]) && due(w)) return true;
+    if (offered_.is_read_by(*now.watchers[w]) && due(w)) return true;
   return false;
 }
 
@@ -185,45 +212,51 @@ bool Run::reads_rates(const Stage& stage) const {
 // Changes that a law itself has made while settling, such as a contact that opened.
 void Run::log_events() {
   for (auto& [law, table] : laws_) {
-    if (law->events().empty()) continue;
+    const auto events = blaming(*law, moment_, [&, law = law] { return law->events(); });
+    if (events.empty()) continue;
     BreakLog& log = domain().breaks();
     const auto x = domain().elements().column("position").view<Vec3>();
-    for (const BondEvent& event : law->events()) {
+    for (const BondEvent& event : events) {
+      check_rows({&event.row, 1}, table->size(), "bonds that changed", *law, moment_);
       const Vec3 place = 0.5 * (x[table->first()[event.row]] + x[table->second()[event.row]]);
       log.breaks.push_back({moment_.time, moment_.step, static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin()),
                             table->id()[event.row], log.mode(event.mode), place, event.energy});
+      if (table->state()[event.row] == State::broken && !law->acts_when_broken()) offered_.clear(*table, event.row);
     }
   }
 }
 
 // All criteria see one configuration; only then do bonds fall, each once, in the order of the deck's criteria.
 void Run::break_bonds() {
-  std::vector<std::pair<Failure*, std::vector<Index>>> verdicts;
+  std::vector<std::pair<Failure*, Verdict>> verdicts;
   derived_now_.clear();
   for (Failure* failure : stage().failures) {
     if (moment_.step % *failure->every != 0) continue;
     derive_for(*failure);
-    auto rows = blaming(*failure, moment_, [&] { return failure->judge(domain(), *domain().find_family(failure->family())); });
-    if (!rows.empty()) verdicts.emplace_back(failure, std::move(rows));
+    Verdict verdict = judge(*failure);
+    for (auto& [criterion, use] : figures_.largest_uses)
+      if (criterion == failure) use.note(verdict, domain(), *domain().find_family(failure->family()), moment_);
+    if (!verdict.fallen.empty()) verdicts.emplace_back(failure, std::move(verdict));
   }
   if (verdicts.empty()) return;
   complete();  // with the forces of the bonds that fall
   std::set<BondTable*> touched;
   const auto x = domain().elements().column("position").view<Vec3>();
   BreakLog& log = domain().breaks();
-  for (auto& [failure, rows] : verdicts) {
+  for (auto& [failure, verdict] : verdicts) {
     const auto at = std::find_if(laws_.begin(), laws_.end(), [name = failure->family()](const auto& l) { return l.second->name() == name; });
     if (at == laws_.end()) continue;
     auto& [law, table] = *at;
     const auto family = static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin());
-    for (const Index row : rows) {
+    for (const Index row : verdict.fallen) {
       if (table->state()[row] == State::broken) continue;
-      const Real energy = law->stored_energy(domain(), *table, row);
+      const Real energy = blaming(*law, moment_, [&, law = law, table = table] { return law->stored_energy(domain(), *table, row); });
       const Vec3 place = 0.5 * (x[table->first()[row]] + x[table->second()[row]]);
-      log.breaks.push_back({moment_.time, moment_.step, family, table->id()[row], log.mode(failure->mode()), place, energy});
+      log.breaks.push_back({moment_.time, moment_.step, family, table->id()[row], log.mode(blaming(*failure, moment_, [&, failure = failure] { return failure->mode(); })), place, energy});
       released_[table] += energy;
-      law->withdraw(domain(), *table, row);
+      blaming(*law, moment_, [&, law = law, table = table] { law->withdraw(domain(), *table, row); });
       table->state()[row] = State::broken;
+      offered_.clear(*table, row);
       touched.insert(table);
     }
   }
@@ -231,6 +264,14 @@ void Run::break_bonds() {
     table->sweep();
     live_[table] = table->live();
   }
+}
+
+Verdict Run::judge(Failure& failure) {
+  Verdict verdict = blaming(failure, moment_, [&] { return offered_.judge(failure, domain()); });
+  const Index bonds = domain().find_family(failure.family())->size();
+  check_rows(verdict.fallen, bonds, "bonds that break", failure, moment_);
+  if (verdict.row >= 0) check_rows({&verdict.row, 1}, bonds, "bonds with the largest utilisation", failure, moment_);
+  return verdict;
 }
 
 void Run::look(std::size_t first) {
@@ -242,13 +283,28 @@ void Run::look(std::size_t first) {
   derived_now_.clear();
   for (std::size_t w = first; w < watchers.size(); ++w) {
     owed_ = watchers.size() - w;
-    if (!due(w)) continue;
-    complete();
-    derive_for(*watchers[w]);
-    blaming(*watchers[w], moment_, [&] { watchers[w]->look(*this); });
-    note_marks(w);
+    if (due(w)) show_to(w);
   }
   owed_ = 0;
+}
+
+// The last state of a stage is seen by all its watchers, whatever their cadence.
+void Run::look_at_end() {
+  ending_ = true;
+  derived_now_.clear();
+  for (std::size_t w = 0; w < stage().watchers.size(); ++w)
+    if (last_look_[stage_number()][w] != static_cast<Real>(moment_.step)) show_to(w);
+  ending_ = false;
+}
+
+void Run::show_to(std::size_t watcher) {
+  Watcher& who = *stage().watchers[watcher];
+  complete();
+  offer_to(who);
+  derive_for(who);
+  blaming(who, moment_, [&] { who.look(*this); });
+  note_marks(watcher);
+  last_look_[stage_number()][watcher] = static_cast<Real>(moment_.step);
 }
 
 // Moments of its 'at' that have come have had their look.
@@ -265,10 +321,27 @@ void Run::derive_for(const Plugin& reader) {
       blaming(*derived, moment_, [&] { derived->derive(domain()); });
 }
 
+void Run::offer_to(const Plugin& reader) {
+  if (offered_.is_read_by(reader)) offer();
+}
+
+// What is read of single bonds, where it has not been found at this step on the way: the forces stay as they are.
+void Run::offer() {
+  if (!offered_.is_told()) {
+    const LoadsAside aside(domain());
+    act({true, false, true, stage().mover().in_single()});
+  }
+  for (Failure* failure : stage().failures) {
+    if (!failure->utilisation || offered_.is_judged(*failure)) continue;
+    derive_for(*failure);
+    judge(*failure);
+  }
+}
+
 // For its cadence, or at a moment of its 'at' that has not had its look.
 bool Run::due(std::size_t watcher) const {
   const Stage& now = scene_.stages[stage_number()];
-  if (now.watchers[watcher]->wants(moment_)) return true;
+  if (blaming(*now.watchers[watcher], moment_, [&] { return now.watchers[watcher]->wants(moment_); })) return true;
   const auto& marks = now.marks[watcher];
   for (std::size_t k = 0; k < marks.size(); ++k)
     if (looked_[stage_number()][watcher][k] == 0 && marks[k].reached(moment_, constraints())) return true;

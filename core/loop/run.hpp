@@ -11,13 +11,25 @@
 #include "core/io/curve.hpp"
 #include "core/io/recorder.hpp"
 #include "core/io/run_folder.hpp"
+#include "core/base/repeats.hpp"
+#include "core/loop/frame_now.hpp"
+#include "core/loop/largest_use.hpp"
+#include "core/loop/offered.hpp"
+#include "core/loop/same_deck.hpp"
 #include "core/loop/scene.hpp"
 
 namespace beadwork {
 
+/// What the user can paste into a shell.
+struct Commands {
+  std::string go_on;        ///< from the newest checkpoint
+  std::string begin_again;  ///< over what has been written
+};
+
 struct RunOptions {
   int threads = 1;
   bool resume = false;
+  Commands commands;
   Real checkpoint_seconds = 600;                ///< wall time between checkpoints
   Real first_checkpoint_seconds = 60;           ///< until the first one, where that is less
   const std::atomic<int>* interrupt = nullptr;  ///< not zero: write a checkpoint and stop
@@ -33,6 +45,8 @@ struct RunFigures {
   Real wall_seconds = 0, loop_seconds = 0;  ///< the loop's are those of steps and looks, without filling and checkpoints
   Real bond_updates = 0;
   std::vector<std::string> packing_reports;  ///< JSON objects
+  std::vector<std::string> notes;            ///< what is to be known of the record, a sentence each
+  std::vector<std::pair<const Failure*, LargestUse>> largest_uses;  ///< by criterion, in the order of the deck
 };
 
 /// What a few steps of the first stage tell of a run, for `plan`.
@@ -65,21 +79,28 @@ class Run final : private Workings, private Sight {
   void begin();
   void go_through_stages();
   void enter(Stage& stage, bool resumed);
+  void connect(Stage& stage);
   bool over();
   void step();
   void evaluate(bool settle) override;
+  void act(Evaluation how);
   void complete();
   void complete_if_possible();
   bool reads_rates(const Stage& stage) const;
   void break_bonds();
   void log_events();
+  Verdict judge(Failure& failure);
   void look(std::size_t first = 0);
+  void look_at_end();
+  void show_to(std::size_t watcher);
   void note_marks(std::size_t watcher);
   bool due(std::size_t watcher) const;
   void tell_of_missed_moments() const;
   bool came(const Watcher& watcher, std::size_t mark) const;
   void bind_all();
   void derive_for(const Plugin& reader);
+  void offer_to(const Plugin& reader);
+  void offer();
   Real wall_seconds() const;
   bool sections_wanted() const;
 
@@ -95,14 +116,22 @@ class Run final : private Workings, private Sight {
   void require_room(const BondLaw& law, std::size_t pairs) const;
   void gather_constraints();
   void begin_constraints();
+  void check_constraints() const;
   void check_constraints(const Stage& stage, std::span<const Constraint> constraints) const;
+  void foresee_families() const;
 
   // what is saved (run_record.cpp)
   void open_record();
+  std::vector<std::filesystem::path> curves_to_cut() const;
+  void frame_anew();
+  std::string curve_ends();
   void store_state();
   void restore_state();
   void save();
   void load();
+  void check_restored(const CheckpointMeta& meta) const;
+  std::optional<std::string> ended_summary() const;
+  void leave_as_found() const;
   bool save_now_and_then(Clock::time_point now);  ///< whether it saved
   void write_summary();
   std::string summary() const;
@@ -125,6 +154,7 @@ class Run final : private Workings, private Sight {
   std::span<const std::pair<BondLaw*, BondTable*>> laws() const override { return laws_; }
   void say(const std::string& line) override { options_.say(line); }
   void warn(const std::string& line) override { options_.warn(line); }
+  void say_once(const std::string& subject, const std::string& line) override { repeats_.say(subject, line); }
 
   // Sight
   const Domain& domain() const override { return *scene_.domain; }
@@ -145,25 +175,33 @@ class Run final : private Workings, private Sight {
   RunFolder& folder_;
   RunOptions options_;
   RunFigures figures_;
+  FileSums files_;  ///< that the deck names for data
   Moment moment_;
   std::vector<std::vector<Constraint>> constraints_;  ///< by stage
   std::vector<std::vector<Peak>> peaks_;              ///< by stage
   std::vector<std::pair<BondLaw*, BondTable*>> laws_;
   std::vector<std::vector<std::vector<Real>>> looked_;  ///< by stage, watcher and moment of its 'at': 1 once it has looked
+  std::vector<std::vector<Real>> last_look_;            ///< by stage and watcher: the step
   std::set<const Derived*> derived_now_;                ///< fields that stand for the present state
+  Offered offered_;
   Real wall_before_ = 0;                                ///< seconds of the sessions before a restart
   std::size_t owed_ = 0;                                ///< watchers of this stage that have not had their turn at this step, last in the order
   bool rates_are_read_ = false;  ///< by loads or criteria of the stage
   bool whole_ = false;                                  ///< the state is that at the end of a step
+  bool ending_ = false;                                 ///< watchers see the last state of a stage, of which there is a checkpoint
   std::map<const BondTable*, Real> released_;           ///< energy of broken bonds, and of families that act no longer [J]
   Real initial_energy_ = 0;                             ///< there without any work [J]
   Real left_at_stage_end_ = 0;                          ///< beyond_work() when the stage before ended [J]
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
+  std::map<std::string, std::uintmax_t> curve_ends_;  ///< lengths of the files when the newest checkpoint was written
+  FrameNow frame_now_;
+  Repeats repeats_;
   std::optional<Recorder> recorder_;
   bool watched_ = true;  ///< false in a trial: no watcher looks by itself
   bool has_checkpoint_ = false;
+  std::optional<std::string> former_summary_;  ///< of the run that is resumed, as long as no step has been made
   std::int64_t saved_step_ = 0;  ///< of the newest checkpoint
   Clock::time_point began_, saved_, shown_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/loop/blame.hpp"
 #include "core/loop/run.hpp"
 
 namespace beadwork {
@@ -27,15 +28,17 @@ void Run::energies(EnergySink& sink) const {
   for (const auto& stage : constraints_)
     for (const Constraint& c : stage) sink.work(c.set, c.work);
   for (const auto& [law, table] : laws_) {
-    sink.stored(law->family(), law->stored_energy(*scene_.domain, *table));
-    sink.dissipated(law->family(), law->dissipated_energy(*scene_.domain, *table));
+    blaming(*law, moment_, [&, law = law, table = table] {
+      sink.stored(law->family(), law->stored_energy(*scene_.domain, *table));
+      sink.dissipated(law->family(), law->dissipated_energy(*scene_.domain, *table));
+    });
   }
   for (const auto& family : scene_.domain->families())
     if (const auto found = released_.find(family.get()); found != released_.end()) sink.dissipated(family->name(), found->second);
   WithoutKinetic earlier(sink);
   for (const auto& plugin : scene_.plugins) {
     const bool other_mover = dynamic_cast<const Mover*>(plugin.get()) && plugin.get() != &scene_.stages[stage_number()].mover();
-    plugin->energy(other_mover ? static_cast<EnergySink&>(earlier) : sink);
+    blaming(*plugin, moment_, [&] { plugin->energy(other_mover ? static_cast<EnergySink&>(earlier) : sink); });
   }
 }
 
@@ -51,8 +54,8 @@ void Run::let_go(const Stage& next) {
   std::erase_if(laws_, [&](const auto& acting) {
     const auto& [law, table] = acting;
     if (std::find(next.laws.begin(), next.laws.end(), law) != next.laws.end()) return false;
-    const Real held = law->stored_energy(domain(), *table);
-    released_[table] += held + law->dissipated_energy(domain(), *table);
+    const Real held = blaming(*law, moment_, [&, law = law, table = table] { return law->stored_energy(domain(), *table); });
+    released_[table] += held + blaming(*law, moment_, [&, law = law, table = table] { return law->dissipated_energy(domain(), *table); });
     options_.say(fmt::format("bond family '{}' acts no longer: the {:.4g} J that it held are booked as dissipated", law->family(), held));
     return true;
   });

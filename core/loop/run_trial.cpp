@@ -30,6 +30,7 @@ Real Run::try_looks(Watcher& watcher) {
     const auto start = Clock::now();
     complete();
     derived_now_.clear();
+    offer_to(watcher);
     derive_for(watcher);
     blaming(watcher, moment_, [&] { watcher.look(*this); });
     taken.push_back(std::chrono::duration<Real>(Clock::now() - start).count());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/deck/deck.hpp"
+#include "core/deck/write.hpp"
 #include "core/domain/domain.hpp"
 #include "core/loop/until.hpp"
 #include "core/plugin/catalogue.hpp"
@@ -43,7 +44,11 @@ class Scene {
   std::string name;
   std::uint64_t seed = 0;
   std::string deck_path, deck_text, deck_sha256;
-  std::string resolved;  ///< the deck with every value in SI and every fallback written out
+  std::vector<Override> overrides;
+  /// The deck with every value in SI, every fallback written out, and paths absolute: it stands for itself, and each node and
+  /// attribute of the tree knows its place in the deck.
+  std::string resolved;
+  PlainNode resolved_tree;
 
   std::vector<std::unique_ptr<Plugin>> plugins;
   std::vector<Filler*> fillers;
@@ -57,8 +62,8 @@ class Scene {
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;
-  /// A path of the deck, from the deck's folder.
-  std::string path_of(const std::string& path) const;
+  /// Paths of the files that the deck names, for data.
+  std::vector<std::string> files() const;
   const std::set<const Plugin*>& readers_of(const Derived& provider) const { return derived_for.at(&provider); }
 };
 

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 
-#include "core/base/failure.hpp"
-#include "core/base/text.hpp"
 #include "core/loop/json_text.hpp"
 #include "core/version.hpp"
 
@@ -38,15 +37,35 @@ class Terms final : public EnergySink {
   EnergySums sums_;
 };
 
+// How near to breaking the run came, by criterion.
+Json utilisation(const RunFigures& figures) {
+  Json all = Json::object();
+  for (const auto& [criterion, use] : figures.largest_uses) {
+    Json& one = all[criterion->id()];
+    one = {{"of", criterion->family()}, {"mode", criterion->mode()}, {"largest", use.value}};
+    if (!use.is_there()) continue;
+    one["step"] = std::llround(use.step);
+    one["time"] = use.time;
+    one["bond"] = std::llround(use.bond);
+    one["elements"] = {std::llround(use.first), std::llround(use.second)};
+    one["place"] = {use.x, use.y, use.z};
+  }
+  return all;
+}
+
 }  // namespace
 
-std::string summary_json(const Scene& scene, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
+std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
   const Domain& domain = sight.domain();
   Json json;
   json["name"] = scene.name;
   json["status"] = figures.status;
   json["exit_reason"] = figures.exit_reason;
   json["deck_sha256"] = scene.deck_sha256;
+  json["overrides"] = Json::object();
+  for (const Override& each : scene.overrides) json["overrides"][each.name] = each.value;
+  json["files"] = Json::object();
+  for (const auto& [path, sum] : files) json["files"][path] = sum;
   json["version"] = version;
   json["threads"] = threads;
   json["seed"] = scene.seed;
@@ -61,14 +80,20 @@ std::string summary_json(const Scene& scene, const RunFigures& figures, const Mo
   json["bond_updates"] = figures.bond_updates;
   json["bond_updates_per_second"] = figures.loop_seconds > 0 ? figures.bond_updates / figures.loop_seconds : 0;
   Terms terms;
-  sight.energies(terms);
-  json["energy"] = terms.json(sight.initial_energy());
+  try {
+    sight.energies(terms);
+    json["energy"] = terms.json(sight.initial_energy());
+  } catch (const PhysicsFailure&) {
+    if (figures.status != "failed") throw;  // of a plugin that failed the energies need not be known
+  }
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;
   for (const Break& b : log.breaks) json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] = json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
+  json["utilisation"] = utilisation(figures);
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));
+  if (!figures.notes.empty()) json["notes"] = figures.notes;
   return json_text(json, 2) + "\n";
 }
 
@@ -80,34 +105,6 @@ std::string curve_json(const CurvePlan& plan) {
   if (!plan.kind.empty()) json["kind"] = plan.kind;
   if (!plan.references.empty()) json["references"] = plan.references;
   return json_text(json, 2) + "\n";
-}
-
-namespace {
-
-/// `line` without each piece that begins so and goes on to the next quote.
-std::string without(std::string line, std::string_view begin) {
-  for (std::size_t at = line.find(begin); at != std::string::npos; at = line.find(begin, at)) {
-    const std::size_t quote = line.find('"', at + begin.size());
-    line.erase(at, quote == std::string::npos ? quote : quote + 1 - at);
-  }
-  return line;
-}
-
-}  // namespace
-
-void refuse_other_deck(const std::string& saved, const std::string& now) {
-  const auto lines = [](const std::string& text) {
-    std::vector<std::string> kept;
-    for (const std::string& line : split(text, '\n')) kept.push_back(without(without(without(line, " until=\""), " every=\""), "<scene name=\""));
-    return kept;
-  };
-  const auto odd = odd_lines(lines(saved), lines(now));
-  if (odd.empty()) return;
-  std::string differences;
-  const auto before = split(saved, '\n'), after = split(now, '\n');
-  for (const OddLine& line : odd)
-    differences += line.in_second ? "\n  deck:       " + std::string(trim(after[line.number])) : "\n  checkpoint: " + std::string(trim(before[line.number]));
-  throw DeckFailure("error: the deck is not the one that began this run; only 'until', 'every' and threads may differ:" + differences);
 }
 
 }  // namespace beadwork

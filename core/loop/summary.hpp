@@ -4,14 +4,11 @@
 #include <string>
 
 #include "core/loop/run.hpp"
+#include "core/loop/same_deck.hpp"
 
 namespace beadwork {
 
-std::string summary_json(const Scene& scene, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight);
+std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight);
 std::string curve_json(const CurvePlan& plan);
-
-/// A run goes on only with the deck that began it. Lines that say when to end, how often to look, or that only name the
-/// scene may differ; else DeckFailure with the lines that differ.
-void refuse_other_deck(const std::string& saved, const std::string& now);
 
 }  // namespace beadwork

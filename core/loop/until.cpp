@@ -21,21 +21,37 @@ bool compare(Real a, const std::string& how, Real b) {
 
 }  // namespace
 
+namespace {
+
+/// Where " or " stands outside of brackets, and the end.
+std::vector<std::size_t> ends_of_clauses(std::string_view text, std::string_view separator) {
+  std::vector<std::size_t> ends;
+  int open = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '(') ++open;
+    if (text[i] == ')') --open;
+    if (open == 0 && text.substr(i).starts_with(separator)) ends.push_back(i);
+  }
+  ends.push_back(text.size());
+  return ends;
+}
+
+}  // namespace
+
 std::optional<Until> Until::compile(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints) {
   Until until;
   until.text_ = text;
   const std::string separator = " or ";
   constexpr std::size_t most = 100;
   std::size_t begin = 0;
-  while (begin <= text.size()) {
+  for (const std::size_t end : ends_of_clauses(text, separator)) {
+    if (end < begin) continue;  // "1 or or 2"
     if (until.clauses_.size() == most) {
       complaints.error(at, fmt::format("'until' joins more than {} conditions by 'or'", most));
       return std::nullopt;
     }
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
     const auto made = clause(text.substr(begin, end - begin), locate(at, begin), scope, complaints);
     if (!made) return std::nullopt;
-    if (!made->set.empty()) until.sets_.push_back(made->set);
     until.clauses_.push_back(*made);
     begin = end + separator.size();
   }
@@ -48,7 +64,7 @@ std::optional<Until::Clause> Until::clause(const std::string& text, const Locati
   if (words.size() >= 3 && words[1] == "of") return watched(words, text, at, scope, complaints);
   const auto expression = Expression::compile(text, at, scope, Mark::variables(), complaints);
   if (!expression) return std::nullopt;
-  Clause clause{What::condition, std::string(trim(text)), 0, {}, false, "", "", false, expression};
+  Clause clause{What::condition, std::string(trim(text)), at, 0, {}, false, "", "", false, expression};
   if (expression->is_condition()) return clause;
   const auto mark = Mark::of(*expression, "until", "a time, a number of steps, a displacement or a condition", text, at, complaints);
   if (!mark) return std::nullopt;
@@ -60,7 +76,7 @@ std::optional<Until::Clause> Until::clause(const std::string& text, const Locati
 // "force of SET < 2 percent of its maximum", "displacement of SET >= 1 mm"
 std::optional<Until::Clause> Until::watched(const std::vector<std::string>& words, const std::string& text, const Location& at,
                                             const Scope& scope, Complaints& complaints) {
-  Clause clause{What::watched, std::string(trim(text)), 0, {}, words[0] == "force", words[2], "", false, std::nullopt};
+  Clause clause{What::watched, std::string(trim(text)), at, 0, {}, words[0] == "force", words[2], "", false, std::nullopt};
   const std::vector<std::string> comparisons{"<", "<=", ">", ">="};
   if ((words[0] != "force" && words[0] != "displacement") || words.size() < 5 ||
       std::find(comparisons.begin(), comparisons.end(), words[3]) == comparisons.end()) {
@@ -82,6 +98,46 @@ std::optional<Until::Clause> Until::watched(const std::vector<std::string>& word
   complaints.error(at, fmt::format("'until' compares {} with {}, got \"{}\"", clause.of_maximum ? "a share" : words[0],
                                    wanted_by(unit), trim(value)));
   return std::nullopt;
+}
+
+std::string Until::Clause::words() const { return what == What::mark ? mark.words() : text; }
+
+std::string Until::Clause::si() const {
+  if (what == What::mark) return mark.si();
+  if (what == What::condition) return condition->text();
+  const std::string limit = of_maximum ? format_number(value) + " of its maximum" : format_quantity(value, watches_force ? "N" : "m");
+  return fmt::format("{} of {} {} {}", watches_force ? "force" : "displacement", set, comparison, limit);
+}
+
+// Forces and displacements are magnitudes; what is to fall below a value must have been above it.
+std::string Until::Clause::why_never(std::span<const Constraint> constraints) const {
+  if (what == What::mark) return mark.why_never(constraints);
+  const bool falls = comparison.starts_with('<');
+  const auto reach = reach_of(constraints, what == What::watched ? set : "");
+  if (what == What::condition) {
+    const auto displacement = static_cast<std::size_t>(Mark::What::displacement);
+    if (condition->uses(displacement) && !reach) return "waits for a displacement, but nothing in <load> is pulled";
+    for (std::size_t v = 0; v < Mark::variables().size(); ++v)
+      if (condition->uses(v)) return "";
+    return fmt::format("wants a condition on time, step or displacement, \"{}\" never changes", text);
+  }
+  if (!reach) return fmt::format("watches set '{}', which nothing in <load> drives", set);
+  if (falls && (value < 0 || (value == 0 && comparison == "<"))) return fmt::format("waits in vain: a {} is never negative", watches_force ? "force" : "displacement");
+  if (!falls && of_maximum && (value > 1 || (value == 1 && comparison == ">"))) return "waits in vain: nothing is above its maximum";
+  if (of_maximum || watches_force || *reach > value || (comparison == ">=" && *reach == value)) return "";
+  return fmt::format("waits for a displacement {} {}, but set '{}' moves {} at most", comparison, format_quantity(value, "m"), set, format_quantity(*reach, "m"));
+}
+
+std::string Until::si() const {
+  std::vector<std::string> all;
+  for (const Clause& clause : clauses_) all.push_back(clause.si());
+  return join(all, " or ");
+}
+
+std::vector<Until::Prospect> Until::prospects(std::span<const Constraint> constraints) const {
+  std::vector<Prospect> all;
+  for (const Clause& clause : clauses_) all.push_back({clause.at, clause.why_never(constraints)});
+  return all;
 }
 
 std::vector<Peak> peaks_of(std::span<const Constraint> constraints) {
@@ -124,7 +180,7 @@ bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Co
 bool Until::reached(const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) const {
   for (const Clause& clause : clauses_) {
     if (!holds(clause, moment, constraints, peaks)) continue;
-    met_ = clause.text;
+    met_ = clause.words();
     return true;
   }
   return false;

@@ -31,8 +31,13 @@ class Until {
   static std::optional<Until> compile(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints);
 
   const std::string& text() const { return text_; }
-  /// Sets that the conditions name, with their places.
-  const std::vector<std::string>& sets() const { return sets_; }
+  std::string si() const;  ///< as any deck may give it
+  /// A condition, and why it can never come under the constraints of a stage ("" if it can).
+  struct Prospect {
+    Location at;
+    std::string why_never;
+  };
+  std::vector<Prospect> prospects(std::span<const Constraint> constraints) const;
   /// True if the stage is over.
   bool reached(const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) const;
   /// The condition that was met last, in words.
@@ -49,6 +54,10 @@ class Until {
   struct Clause {
     What what;
     std::string text;
+    Location at;
+    std::string words() const;
+    std::string si() const;
+    std::string why_never(std::span<const Constraint> constraints) const;
     Real value = 0;  ///< of what is watched
     Mark mark;
     bool watches_force = false;
@@ -65,7 +74,6 @@ class Until {
 
   std::string text_;
   std::vector<Clause> clauses_;
-  std::vector<std::string> sets_;
   mutable std::string met_;
 };
 

@@ -3,8 +3,11 @@
 // The force is a function of the state and of the *accepted* history k, the largest opening so far; the new
 // history is returned beside it, and the caller accepts it or not. docs/theory/cohesive-contact.md
 //
-//   F = (1 - d) k0 u,   d = u_p (k - u_e) / (k (u_p - u_e))  for u_e < k < u_p,   k = max u (C1) compression
-//   (u_n < 0): F = k0 u_n, undamaged, also after failure dissipated: D(k) = G S (k - u_e)/(u_p - u_e) (C2)
+//   F = (1 - d) k0 u,   d = u_p (k - u_e) / (k (u_p - u_e))  for u_e < k < u_p,   k = max u      (C1)
+//   compression (u_n < 0): F = k0 u_n, undamaged, also after failure
+//   dissipated: D(k) = G S (k - u_e)/(u_p - u_e)                                                  (C2)
+//
+// How the two faces of a contact stand to one another: cohesive_faces.hpp; two modes together: cohesive_modes.hpp.
 
 #include <numbers>
 
@@ -99,8 +102,7 @@ inline Real contact_area_on_large(Real small_radius) {
   return std::numbers::pi * small_radius * small_radius;
 }
 
-// ---------------------------------------------------------------------------------------------- opening
-// alone
+// ---------------------------------------------------------------------------------------------- opening alone
 
 template <class T>
 struct CohesiveRest {
@@ -129,155 +131,6 @@ template <class T>
   const T u_n = l - rest.length;
   const T pull = rest.area * traction(law, u_n, history);
   return {(-pull / l) * d, max(history, u_n)};
-}
-
-// ---------------------------------------------------------------------------------------------- sliding
-
-/// The contact point as each element carries it along: body vectors from the centres, equal places when
-/// bonded.
-template <class T>
-struct ContactArms {
-  Vec<T> arm1, arm2;  ///< [m]
-};
-
-/// Both arms to the point on the line of centres that divides d = x2 - x1 as the radii do.
-inline ContactArms<Real> contact_arms(const Vec3& d, Real radius1, Real radius2, const Quat& q1,
-                                      const Quat& q2) {
-  const Vec3 to_point = d * (radius1 / (radius1 + radius2));
-  return {rotate_back(q1, to_point), rotate_back(q2, to_point - d)};
-}
-
-enum class CohesiveModes { shear, both };
-
-/// One number for each mode: an opening, or its history [m].
-template <class T>
-struct Openings {
-  T normal, shear;
-};
-
-template <class T>
-struct CohesiveLaws {
-  Softening<T> normal, shear;
-};
-
-template <class T>
-[[gnu::always_inline]] inline CohesiveLaws<T> as(const CohesiveLaws<Real>& laws) {
-  return {as<T>(laws.normal), as<T>(laws.shear)};
-}
-
-/// Where the contact stands: u = c2 - c1 of the two carried points, split along n = d/l.
-template <class T>
-struct ContactState {
-  Vec<T> normal;        ///< n, from 1 to 2
-  T length;             ///< l [m]
-  Vec<T> arm1, arm2;    ///< c_i - x_i, world [m]
-  Vec<T> slip;          ///< u_s = u - n (u.n) [m]
-  T along;              ///< u.n [m]
-  Openings<T> opening;  ///< l - l0 and |u_s|
-};
-
-template <class T>
-[[gnu::always_inline]] inline ContactState<T> contact_state(const CohesiveRest<T>& rest,
-                                                            const ContactArms<T>& arms, const Same<Vec<T>>& d,
-                                                            const Quaternion<T>& q1,
-                                                            const Quaternion<T>& q2) {
-  const T l = sqrt(dot(d, d));
-  const Vec<T> n = (T(1) / l) * d;
-  const Vec<T> arm1 = rotate(q1, arms.arm1);
-  const Vec<T> arm2 = rotate(q2, arms.arm2);
-  const Vec<T> u = d + arm2 - arm1;
-  const T along = dot(u, n);
-  const Vec<T> slip = u - along * n;
-  return {copy(n), l, copy(arm1), copy(arm2), copy(slip), along, {l - rest.length, sqrt(dot(slip, slip))}};
-}
-
-/// Whether the contact has failed: either mode at its u_p takes both. A mask of T.
-template <CohesiveModes modes, class T>
-[[gnu::always_inline]] inline auto has_failed(const CohesiveLaws<T>& laws, const Openings<T>& history) {
-  if constexpr (modes == CohesiveModes::shear)
-    return history.shear >= laws.shear.open;
-  else
-    return max(history.normal - laws.normal.open, history.shear - laws.shear.open) >= T(0);
-}
-
-/// The history if this state is accepted. A failed contact remembers no more: what it dissipated stands.
-template <CohesiveModes modes, class T>
-[[gnu::always_inline]] inline Openings<T> next_history(const CohesiveLaws<T>& laws,
-                                                       const Openings<T>& opening,
-                                                       const Openings<T>& history) {
-  const auto failed = has_failed<modes>(laws, history);
-  return {select(failed, history.normal, max(history.normal, opening.normal)),
-          select(failed, history.shear, max(history.shear, opening.shear))};
-}
-
-/// Share of the stiffness that acts in each mode, given the history that includes the present state.
-template <CohesiveModes modes, class T>
-[[gnu::always_inline]] inline Openings<T> active_share(const CohesiveLaws<T>& laws,
-                                                       const Openings<T>& opening,
-                                                       const Openings<T>& history) {
-  const auto failed = has_failed<modes>(laws, history);
-  const T shear = select(failed, T(0), soundness(laws.shear, history.shear));
-  if constexpr (modes == CohesiveModes::shear) return {T(0), shear};  // no normal law, no normal force
-  const T pulled = select(failed, T(0), soundness(laws.normal, history.normal));
-  return {select(opening.normal < T(0), T(1), pulled), shear};
-}
-
-template <class T>
-struct Cohesion {
-  Wrench<T> wrench;
-  Openings<T> history;  ///< if this state is accepted
-};
-
-/// Shear law, or both laws. With the damage held, minus the gradient of  S K_n/2 u_n^2 + S K_s/2 |u_s|^2:
-/// hence the factor 1 - u.n/l of the force, and both ends' forces on one line: angular momentum is kept to
-/// round-off.
-template <CohesiveModes modes, class T>
-[[gnu::always_inline]] inline Cohesion<T> cohesive_wrench(const CohesiveLaws<T>& laws,
-                                                          const CohesiveRest<T>& rest,
-                                                          const ContactArms<T>& arms, const Same<Vec<T>>& d,
-                                                          const Quaternion<T>& q1, const Quaternion<T>& q2,
-                                                          const Openings<T>& history) {
-  const ContactState<T> at = contact_state<T>(rest, arms, d, q1, q2);
-  const Openings<T> next = next_history<modes>(laws, at.opening, history);
-  const Openings<T> share = active_share<modes>(laws, at.opening, next);
-  const Vec<T> drag = (-rest.area * share.shear * laws.shear.stiffness) * at.slip;
-  const T pull = rest.area * share.normal * laws.normal.stiffness * at.opening.normal;
-  return {
-      {(T(1) - at.along / at.length) * drag - pull * at.normal, cross(drag, at.arm1), cross(at.arm2, drag)},
-      {next.normal, next.shear}};
-}
-
-/// Recoverable energy of the contact [J].
-template <CohesiveModes modes, class T>
-T cohesive_stored(const CohesiveLaws<T>& laws, const CohesiveRest<T>& rest, const Openings<T>& opening,
-                  const Openings<T>& history) {
-  const Openings<T> share = active_share<modes>(laws, opening, next_history<modes>(laws, opening, history));
-  return T(0.5) * rest.area *
-         (share.normal * laws.normal.stiffness * opening.normal * opening.normal +
-          share.shear * laws.shear.stiffness * opening.shear * opening.shear);
-}
-
-/// Energy that softening has taken so far [J].
-template <CohesiveModes modes, class T>
-T cohesive_dissipated(const CohesiveLaws<T>& laws, const CohesiveRest<T>& rest, const Openings<T>& history) {
-  const T sliding = dissipated_per_area(laws.shear, history.shear);
-  if constexpr (modes == CohesiveModes::shear) return rest.area * sliding;
-  return rest.area * (dissipated_per_area(laws.normal, history.normal) + sliding);
-}
-
-/// Energy let go in this step because the other mode failed [J]: still recoverable a step ago, now gone, and
-/// in no history. The ledger books it once, when the state is accepted.
-template <CohesiveModes modes, class T>
-T cohesive_released(const CohesiveLaws<T>& laws, const CohesiveRest<T>& rest, const Openings<T>& opening,
-                    const Openings<T>& history) {
-  if constexpr (modes == CohesiveModes::shear) return T(0);
-  const Openings<T> next = next_history<modes>(laws, opening, history);
-  const T pulled = max(T(0), opening.normal);
-  const T held = T(0.5) * rest.area *
-                 (soundness(laws.normal, next.normal) * laws.normal.stiffness * pulled * pulled +
-                  soundness(laws.shear, next.shear) * laws.shear.stiffness * opening.shear * opening.shear);
-  const T newly = select(has_failed<modes>(laws, next), held, T(0));
-  return select(has_failed<modes>(laws, history), T(0), newly);
 }
 
 }  // namespace beadwork

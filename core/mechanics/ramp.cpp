@@ -26,4 +26,18 @@ PrescribedMotion VelocityTable::at(Real t) const {
           rows_[i].velocity + slope * since, slope};
 }
 
+// The turning points are rows, and where a line between two of them crosses zero.
+Real VelocityTable::reach() const {
+  if (rows_.back().velocity != 0) return std::numeric_limits<Real>::infinity();
+  Real low = 0, high = 0;
+  const auto visit = [&](Real displacement) { low = std::min(low, displacement), high = std::max(high, displacement); };
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    visit(travelled_[i]);
+    if (i == 0 || rows_[i - 1].velocity * rows_[i].velocity >= 0) continue;
+    const Real share = rows_[i - 1].velocity / (rows_[i - 1].velocity - rows_[i].velocity);
+    visit(at(rows_[i - 1].time + share * (rows_[i].time - rows_[i - 1].time)).displacement);
+  }
+  return high - low;
+}
+
 }  // namespace beadwork

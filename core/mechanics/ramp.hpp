@@ -2,6 +2,7 @@
 // Prescribed motion: a velocity that sets in smoothly, and a velocity given by a table. Both with exact
 // integrals, so that a place prescribed at time t does not depend on the steps that led there.
 
+#include <limits>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -45,6 +46,8 @@ struct SmoothRamp {
     return {velocity * rise * smooth_step_integral(x), velocity * smooth_step(x),
             velocity * smooth_step_slope(x) / rise};
   }
+  /// Farthest that it ever gets from where it has been.
+  Real reach() const { return velocity == 0 ? 0 : std::numeric_limits<Real>::infinity(); }
 };
 
 /// Velocity by straight lines between rows (time, velocity), held before the first and after the last.
@@ -59,6 +62,8 @@ class VelocityTable {
 
   /// Displacement counts from the first row's time; before it, the first velocity runs backwards.
   PrescribedMotion at(Real t) const;
+  /// Farthest that it ever gets, from the first row's time on, from where it has been; infinite if it ends in motion.
+  Real reach() const;
 
  private:
   std::vector<Row> rows_;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
 
 namespace beadwork {
@@ -98,8 +99,7 @@ std::array<Real, 4> ElasticNetwork::grips(Index bond) const {
 std::vector<std::array<Real, 2>> ElasticNetwork::total_grips() const {
   if (start_.empty()) link();
   std::vector<std::array<Real, 2>> total(at(elements_));
-#pragma omp parallel for schedule(static) if (elements_ > 1024)
-  for (Index i = 0; i < elements_; ++i) {
+  each_shared(elements_, [&](Index i) {
     std::array<Real, 2> sum{};
     visit_bonds(i, [&](Index bond) {
       const auto of = grips(bond);
@@ -108,7 +108,7 @@ std::vector<std::array<Real, 2>> ElasticNetwork::total_grips() const {
       sum[1] += of[end + 1];
     });
     total[at(i)] = sum;
-  }
+  }, 1025);
   return total;
 }
 
@@ -130,8 +130,7 @@ std::array<Real, 3> three_rows(const float* lower, const std::array<Real, 9>& z)
 
 void ElasticNetwork::multiply(std::span<const Real> x, std::span<Real> y) const {
   if (start_.empty()) link();
-#pragma omp parallel for schedule(static) if (elements_ > 1024)
-  for (Index i = 0; i < elements_; ++i) {
+  each_shared(elements_, [&](Index i) {
     std::array<Real, 6> sum{};
     visit_bonds(i, [&](Index bond) {
       const Ends ends = ends_[at(bond)];
@@ -148,7 +147,7 @@ void ElasticNetwork::multiply(std::span<const Real> x, std::span<Real> y) const 
       }
     });
     std::copy(sum.begin(), sum.end(), y.begin() + 6 * static_cast<std::ptrdiff_t>(i));
-  }
+  }, 1025);
 }
 
 Mobility::Mobility(std::span<const Real> mass, std::span<const Real> inertia) : inverse_(6 * mass.size(), 0) {
@@ -176,11 +175,9 @@ Real norm(const std::vector<Real>& u) {
 /// u' = s M^-1/2 K M^-1/2 u
 void apply(const StiffnessProduct& product, const std::vector<Real>& root, std::vector<Real>& u,
            std::vector<Real>& x, Real scale) {
-#pragma omp parallel for schedule(static) if (u.size() > 6 * 1024)
-  for (std::size_t i = 0; i < u.size(); ++i) x[i] = root[i] * u[i] * scale;
+  each_shared(u.size(), [&](std::size_t i) { x[i] = root[i] * u[i] * scale; }, 6 * 1024 + 1);
   product(x, u);
-#pragma omp parallel for schedule(static) if (u.size() > 6 * 1024)
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] *= root[i];
+  each_shared(u.size(), [&](std::size_t i) { u[i] *= root[i]; }, 6 * 1024 + 1);
 }
 
 /// Where most of the kinetic energy u^2 of a mode is.
@@ -291,17 +288,15 @@ HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility) 
   if (network.bonds() == 0) return best;
   const BondsAlone alone(network, mobility);
   std::vector<Real> norms(at(network.bonds()));
-#pragma omp parallel for schedule(static) if (network.bonds() > 1024)
-  for (Index b = 0; b < network.bonds(); ++b) norms[at(b)] = alone.matrix(b).norm();
+  each_shared(network.bonds(), [&](Index b) { norms[at(b)] = alone.matrix(b).norm(); }, 1025);
   alone.improve(best, static_cast<Index>(std::max_element(norms.begin(), norms.end()) - norms.begin()));
 
   // The Frobenius norm is never below the eigenvalue. In a lattice all bonds are alike, and no norm tells which could
   // beat the best: then a Cholesky factor does, for a tenth of what the eigenvalues cost.
   constexpr Real rounding = 1e-12;
   std::vector<char> higher(norms.size(), 0);
-#pragma omp parallel for schedule(static) if (network.bonds() > 1024)
-  for (Index b = 0; b < network.bonds(); ++b)
-    higher[at(b)] = norms[at(b)] > best.lambda && !all_below((1 + rounding) * best.lambda, alone.matrix(b));
+  const auto could_beat = [&](Index b) { return norms[at(b)] > best.lambda && !all_below((1 + rounding) * best.lambda, alone.matrix(b)); };
+  each_shared(network.bonds(), [&](Index b) { higher[at(b)] = could_beat(b); }, 1025);
   std::vector<Index> order;
   for (Index b = 0; b < network.bonds(); ++b)
     if (higher[at(b)]) order.push_back(b);

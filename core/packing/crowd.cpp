@@ -42,7 +42,7 @@ std::vector<Pair> near_pairs(const Crowd& crowd, Real gap) {
     position[i] = crowd.ball[i].x;
     radius[i] = crowd.ball[i].r;
   }
-  return find_pairs_around(position, radius, crowd.moving, 0, gap);
+  return find_pairs_around(position, radius, crowd.moving, 0, gap, crowd.pause);
 }
 
 Real mean_radius(const Crowd& crowd) {
@@ -108,8 +108,33 @@ Tally tally(const Crowd& crowd, const NeighbourList& list) {
 }
 }  // namespace
 
+std::vector<char> bulk_of(const Crowd& crowd) {
+  const Real margin = bulk_margin * mean_radius(crowd);
+  std::vector<char> bulk(crowd.moving);
+  for (std::size_t i = 0; i < crowd.moving; ++i) bulk[i] = crowd.walls.distance(crowd.ball[i].x) > margin;
+  if (crowd.ball.size() == crowd.moving) return bulk;
+  for (const Pair& p : near_pairs(crowd, margin))
+    if (std::size_t(p.j) >= crowd.moving) {
+      const Ball &a = crowd.ball[std::size_t(p.i)], &b = crowd.ball[std::size_t(p.j)];
+      if ((b.x - a.x).norm() - b.r <= margin) bulk[std::size_t(p.i)] = 0;
+    }
+  return bulk;
+}
+
 Real coordination(const Crowd& crowd, Neighbours& neighbours) {
   return tally(crowd, neighbours.of(crowd)).contacts / Real(crowd.moving);
+}
+
+Real coordination(const Crowd& crowd, Neighbours& neighbours, const std::vector<char>& counts) {
+  const NeighbourList& list = neighbours.of(crowd);
+  std::size_t contacts = 0, elements = 0;
+  for (std::size_t i = 0; i < crowd.moving; ++i) {
+    if (!counts[i]) continue;
+    ++elements;
+    const Ball& a = crowd.ball[i];
+    for (const Index j : list.of(i)) contacts += (crowd.ball[j].x - a.x).norm() < a.r + crowd.ball[j].r;
+  }
+  return elements ? Real(contacts) / Real(elements) : 0;
 }
 
 OverlapFigures overlaps(const Crowd& crowd, Neighbours& neighbours) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
+#include "core/base/pause.hpp"
 #include "core/base/types.hpp"
 #include "core/domain/neighbours.hpp"
 #include "core/packing/packing.hpp"
@@ -26,7 +26,7 @@ struct Crowd {
   std::size_t moving = 0;  ///< ball[moving] and those behind are obstacles
   Vec3 origin;
   Real unit;
-  std::function<void()> pause = [] {};  ///< called at each round of arranging
+  Pause pause = never_paused;
 };
 
 /// Along a Hilbert curve; `order[k]` is the element of the packing that became ball k.
@@ -67,8 +67,14 @@ struct Largest {
   void operator+=(const Largest& other) { value = std::max(value, other.value); }
 };
 
-/// Contacts among elements (obstacles included, walls not) per moving element.
+/// What is nearer to a wall or an obstacle is not bulk [mean radii].
+inline constexpr Real bulk_margin = 3;
+/// Which moving elements are farther than 3 mean radii from walls and obstacles.
+std::vector<char> bulk_of(const Crowd&);
+
+/// Contacts among elements (obstacles included, walls not) per moving element; or per one that counts. 0 if none does.
 Real coordination(const Crowd&, Neighbours&);
+Real coordination(const Crowd&, Neighbours&, const std::vector<char>& counts);
 
 struct OverlapFigures {
   Real largest = 0;  ///< overlap / (R1 + R2); overlap / R at a wall

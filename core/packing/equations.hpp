@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/pause.hpp"
 #include "core/packing/crowd.hpp"
 
 namespace beadwork::packing {
@@ -36,7 +37,7 @@ class ContactEquations {
 
   /// The change with (A A^T + damping) lambda = -gap, change = A^T lambda, by conjugate gradients down to
   /// `reduction` of the first residual. Returns the number of iterations.
-  int solve(const Damping&, Real reduction, int most);
+  int solve(const Damping&, Real reduction, int most, const Pause& pause = never_paused);
 
   const std::vector<Change>& change() const { return change_; }
   /// Gaps that the linear equations leave.

@@ -53,33 +53,78 @@ void rearrange(Packing& packing, int steps) {
   put_back(crowd, order, packing);
 }
 
+[[noreturn]] void refuse_waiting(const Packing& packing, Real tolerance, Real share) {
+  std::ostringstream out;
+  out << packing.waiting.size() << " of " << packing.waiting.size() + packing.position.size() << " elements found no place, also not at "
+      << share << " of their size, with an overlap of at most " << tolerance
+      << " (R1 + R2): raise the overlap tolerance, or ask for fewer or smaller elements";
+  throw PackingFailure(out.str());
+}
+
+/// Puts the waiting elements in as small as need be; returns the radii that they are to have, in the order of their rows.
+std::vector<Real> place_small(Packing& packing, Real tolerance, Random& random) {
+  constexpr Real smaller = 0.8, smallest = 0.1;
+  std::vector<Real> wanted;
+  for (Real share = smaller; !packing.waiting.empty(); share *= smaller) {
+    if (share < smallest) refuse_waiting(packing, tolerance, share);
+    for (Real& r : packing.waiting) r *= share;
+    const std::size_t first = packing.radius.size();
+    place_waiting(packing, tolerance, random);
+    for (std::size_t k = first; k < packing.radius.size(); ++k) wanted.push_back(packing.radius[k] / share);
+    for (Real& r : packing.waiting) r /= share;
+  }
+  return wanted;
+}
+
+/// Where small elements stand already there is never a hole for a large one, so it goes in small, and grows while all push
+/// each other apart.
+void grow_in(Packing& packing, Real tolerance, Random& random) {
+  constexpr Real growth = 1.1;
+  const std::size_t first = packing.radius.size();
+  const std::vector<Real> wanted = place_small(packing, tolerance, random);
+  for (bool growing = true; growing;) {
+    growing = false;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      Real& r = packing.radius[first + k];
+      r = std::min(wanted[k], growth * r);
+      growing = growing || r < wanted[k];
+    }
+    rearrange(packing, 100);
+  }
+}
+
 void place_all(Packing& packing, Real tolerance) {
   Random random(packing.seed, 3);
   for (int round = 0; !packing.waiting.empty(); ++round) {
     const std::size_t placed = place_waiting(packing, tolerance, random);
     if (packing.waiting.empty()) return;
-    if (round == most_rounds || (placed == 0 && round > 5))
-      throw PackingFailure(std::to_string(packing.waiting.size()) + " of " +
-                           std::to_string(packing.waiting.size() + packing.position.size()) +
-                           " elements found no place with an overlap of at most " +
-                           std::to_string(tolerance) +
-                           " (R1 + R2): raise the overlap tolerance, or ask for fewer or smaller elements");
+    if (round == most_rounds || (placed == 0 && round > 5)) return grow_in(packing, tolerance, random);
     rearrange(packing, 100);
   }
 }
 
-[[noreturn]] void refuse_coordination(const Crowd& crowd, Real asked, Real reached, Real overlap) {
+[[noreturn]] void refuse_coordination(const Crowd& crowd, Real asked, bool bulk, Real reached, Real overlap) {
   std::ostringstream out;
-  out << "a coordination number of " << asked << " cannot be reached with " << crowd.moving
+  out << "a coordination number of " << asked << (bulk ? " in the bulk" : "") << " cannot be reached with " << crowd.moving
       << (crowd.moving == 1 ? " element" : " elements") << ": it is " << reached << " where they overlap by "
       << 100 * overlap << " % of R1 + R2 on average; ask for a lower coordination number"
       << (crowd.moving < 1000 ? ", or for more elements (those at the walls have fewer contacts)" : "");
   throw PackingFailure(out.str());
 }
 
+/// Of those that count.
+Real coordination(const Crowd& crowd, Neighbours& neighbours, bool bulk) {
+  if (!bulk) return coordination(crowd, neighbours);
+  const std::vector<char> inside = bulk_of(crowd);
+  if (std::find(inside.begin(), inside.end(), 1) == inside.end())
+    throw PackingFailure("no element is in the bulk, farther than 3 mean radii from walls and obstacles, so their contacts cannot be counted: "
+                         "count those of all elements, or ask for more elements");
+  return coordination(crowd, neighbours, inside);
+}
+
 /// Radii grow or shrink together until the coordination number is that asked, or a little above; or until
 /// elements hardly overlap any more: a packing that holds has a coordination number below which it cannot go.
-void reach_coordination(Crowd& crowd, Real asked, const Tell& tell) {
+void reach_coordination(Crowd& crowd, Real asked, bool bulk, const Tell& tell) {
   constexpr Real band = 0.03;
   constexpr Real slope = 90;     // recorded: dZ / d(ln R) near Z = 6.2
   constexpr Real hardly = 3e-4;  // mean overlap / (R1 + R2)
@@ -87,7 +132,7 @@ void reach_coordination(Crowd& crowd, Real asked, const Tell& tell) {
   Real gain = 1, before = 0, Z = 0, overlap = 0;
   for (int round = 0; round < most_rounds; ++round) {
     settle(crowd, neighbours, round == 0 ? 600 : 300, 0.03);
-    Z = coordination(crowd, neighbours);
+    Z = coordination(crowd, neighbours, bulk);
     overlap = overlaps(crowd, neighbours).mean;
     tell((std::ostringstream() << "coordination " << Z << " of " << asked).str());
     if (Z >= asked && (Z <= asked + band || overlap < hardly)) return;
@@ -98,7 +143,7 @@ void reach_coordination(Crowd& crowd, Real asked, const Tell& tell) {
     // Never down past the point where they come apart, which is about 1.7 times the mean overlap away.
     scale_radii(crowd, 1 + std::clamp(gain * missing / slope, -std::min(0.01, 1.3 * overlap), 0.01));
   }
-  if (Z < asked) refuse_coordination(crowd, asked, Z, overlap);
+  if (Z < asked) refuse_coordination(crowd, asked, bulk, Z, overlap);
 }
 
 }  // namespace
@@ -111,7 +156,7 @@ void forced_filling(Packing& packing, const ForcedFilling& rule) {
   place_all(packing, rule.tolerance);
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
-  reach_coordination(crowd, rule.coordination, packing.tell);
+  reach_coordination(crowd, rule.coordination, rule.bulk, packing.tell);
   put_back(crowd, order, packing);
   packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
 }

@@ -20,7 +20,7 @@ Packing free_filling(const Request& request) {
                   .seed = request.seed,
                   .position = {},
                   .radius = {},
-                  .waiting = draw_radii(request.dispersion, sizing.count, request.seed),
+                  .waiting = draw_radii(request.dispersion, sizing.count, request.seed, request.pause),
                   .seconds = 0,
                   .warnings = {},
                   .pause = request.pause,

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/parallel.hpp"
+
 namespace beadwork::packing {
 namespace {
 
@@ -37,7 +39,9 @@ InsertionGrid::InsertionGrid(const Region& region, Real largest_radius) : reach_
   const Vec3 extent = box.high - box.low;
   low_ = box.low;
   edge_ = std::max(2 * largest_radius, std::cbrt(extent.prod() / most_cells));
-  for (int a = 0; a < 3; ++a) cells_[a] = std::max(1, int(std::ceil(extent[a] / edge_)));
+  const auto across = [&] { return (extent / edge_).array().ceil().max(1); };
+  while (!(across().prod() <= 2 * most_cells)) edge_ *= 1.25;  // a thin or long region has cells for its walls alone
+  cells_ = across().cast<int>().matrix();
   const std::size_t count = std::size_t(cells_[0]) * std::size_t(cells_[1]) * std::size_t(cells_[2]);
   first_.assign(count, -1);
 }
@@ -130,8 +134,7 @@ void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRul
       candidate.push_back({point_in(region, random_unit(random), r), r});
     }
     free.assign(count, 0);
-#pragma omp parallel for schedule(static) if (count == block)
-    for (std::size_t k = 0; k < count; ++k) free[k] = fits(candidate[k]);
+    each_shared(count, [&](std::size_t k) { free[k] = fits(candidate[k]); }, block);
     for (std::size_t k = 0; k < count; ++k) {
       rule.pause();
       const bool found = failed < rule.tries && free[k] && fits(candidate[k]);

@@ -2,10 +2,10 @@
 // Placing elements at random where there is room.
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "core/base/pause.hpp"
 #include "core/base/random.hpp"
 #include "core/base/types.hpp"
 #include "core/packing/crowd.hpp"
@@ -55,7 +55,7 @@ struct InsertionRule {
   int choices = 1;                      ///< random places looked at for each element; the one with the most room is taken
   int patience = 1;                     ///< goes of an element before the next one's turn
   int tries = 20000;                    ///< ends after so many goes in a row found no place
-  std::function<void()> pause = [] {};  ///< called at each element's turn
+  Pause pause = never_paused;           ///< called at each element's turn
   Tell tell = [](const std::string&) {};
 };
 

@@ -12,7 +12,7 @@ struct Order {
 
 /// ten Wolde, Ruiz-Montero and Frenkel, J. Chem. Phys. 104, 9932 (1996), with l = 6. Instead of spherical
 /// harmonics their addition theorem is used: the product of two elements is the mean of P6(cos) over pairs of
-/// their directions.
+/// their directions. Zeros where elements are heaped on one another, 60 around each, and the measure says nothing.
 Order bond_order(const Crowd&);
 
 }  // namespace beadwork::packing

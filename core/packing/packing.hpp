@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/pause.hpp"
 #include "core/base/types.hpp"
 #include "core/packing/radii.hpp"
 #include "core/packing/region.hpp"
@@ -48,7 +49,7 @@ struct Request {
   std::uint64_t seed = 1;
   /// Free filling ends after so many failed tries in a row.
   int tries = 20000;
-  std::function<void()> pause = [] {};  ///< called now and then: what it throws ends the work
+  Pause pause = never_paused;
   Tell tell = [](const std::string&) {};
 };
 
@@ -62,7 +63,7 @@ struct Packing {
   std::vector<Real> waiting;  ///< radii of the elements that found no place yet
   Real seconds = 0;
   std::vector<std::string> warnings;
-  std::function<void()> pause = [] {};  ///< as in Request
+  Pause pause = never_paused;
   Tell tell = [](const std::string&) {};
 };
 
@@ -70,11 +71,12 @@ struct Packing {
 Packing free_filling(const Request&);
 
 struct ForcedFilling {
-  Real coordination = 6.2;  ///< contacts of an element with other elements, mean over all elements
+  Real coordination = 6.2;  ///< contacts of an element with other elements, mean over those that count
   Real tolerance = 0.3;     ///< largest overlap / (R1 + R2) of an element when it is inserted
+  bool bulk = false;        ///< those in the bulk alone count: farther than 3 mean radii from walls and obstacles
 };
 /// Places the waiting elements and re-arranges all; then all radii grow or shrink by one common factor until
-/// the coordination number is reached.
+/// the coordination number is reached. What finds no place is put in smaller and grows.
 void forced_filling(Packing&, const ForcedFilling& = {});
 
 struct Relaxation {

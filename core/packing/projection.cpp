@@ -144,7 +144,7 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
     std::vector<Contact> contacts(keys.size());
     for_each(keys.size(), [&](std::size_t e) { contacts[e] = contact_of(crowd, keys[e]); });
     ContactEquations equations(crowd.moving, contacts, allowance.compliance());
-    result.iterations += equations.solve(damping, 1e-3, 400);
+    result.iterations += equations.solve(damping, 1e-3, 400, crowd.pause);
     const bool gently = result.rounds < gentle_rounds;
     add(equations.change(), gently ? gentle_share : 1, crowd);
     known = gently ? std::move(keys) : closable(contacts, equations.remaining());

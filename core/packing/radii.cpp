@@ -41,10 +41,13 @@ void check(const Dispersion& d) {
                                 std::to_string(d.deviation));
 }
 
-std::vector<Real> draw_radii(const Dispersion& d, std::size_t count, std::uint64_t seed) {
+std::vector<Real> draw_radii(const Dispersion& d, std::size_t count, std::uint64_t seed, const Pause& pause) {
   Random random(seed, 1);
   std::vector<Real> radii(count);
-  for (std::size_t k = 0; k < count; ++k) radii[k] = quantile(d, (Real(k) + random.uniform()) / Real(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k % 16384 == 0) pause();
+    radii[k] = quantile(d, (Real(k) + random.uniform()) / Real(count));
+  }
   for (std::size_t k = count; k > 1; --k) std::swap(radii[k - 1], radii[random.bits() % k]);
   return radii;
 }

@@ -148,6 +148,18 @@ std::string describe(const Region& region) {
 
 void check(const Region& region) {
   std::visit([](const auto& r) { check(r); }, region);
+  // Beyond these the volumes and moments of inertia of elements are no numbers any more.
+  constexpr Real smallest = 1e-50, largest = 1e50;
+  // So far away from the origin, places are rounded to more than the overlap that relaxation leaves.
+  constexpr Real farthest = 1e6;
+  const Box box = bounds(region);
+  const Real narrow = inradius(region), wide = (box.high - box.low).maxCoeff();
+  if (!(narrow >= smallest && wide <= largest))
+    throw std::invalid_argument("the extents of the region to be filled must lie between 1e-50 and 1e50, got " + describe(region));
+  const Real away = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+  if (away > farthest * std::max(narrow, wide))
+    throw std::invalid_argument("the region to be filled lies so far from the origin that the places of its elements would be rounded: " +
+                                describe(region) + "; move it to the origin");
 }
 
 }  // namespace beadwork::packing

@@ -13,6 +13,7 @@ namespace beadwork::packing {
 namespace {
 
 constexpr Real skin = 0.35;
+constexpr Real wide_spread = 0.4;
 
 void check(const Relaxation& rule) {
   if (!(std::isfinite(rule.overlap) && rule.overlap > 0))
@@ -79,9 +80,10 @@ Real coordination_with_gap(Crowd crowd) {
 void warn_of_lost_contacts(Packing& packing, const Crowd& crowd, Real before) {
   const Real after = coordination_with_gap(crowd);
   if (after < before - 0.05)
-    warn(packing, "relaxation lowered the coordination number from ", before, " to ", after,
-         " (gaps up to .001 counted); let the radii change more, widen the spread, or ask for less to begin "
-         "with");
+    warn(packing, "relaxation lowered the coordination number from ", before, " to ", after, " (gaps up to .001 counted); ",
+         packing.dispersion.spread > wide_spread
+             ? "where radii spread so wide, small elements come loose between large ones: let the radii change more, or narrow the spread"
+             : "let the radii change more, widen the spread, or ask for less to begin with");
 }
 
 void warn_of_crystal(Packing& packing, const Crowd& crowd) {

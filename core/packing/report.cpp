@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/base/parallel.hpp"
 #include "core/packing/blocks.hpp"
 #include "core/packing/crowd.hpp"
 #include "core/packing/even_points.hpp"
@@ -17,7 +18,6 @@ namespace beadwork::packing {
 namespace {
 
 constexpr Real touching_gap = 1e-6;
-constexpr Real bulk_margin = 3;    // mean radii
 constexpr int rigid_contacts = 4;  // fewer cannot hold a sphere in three dimensions
 
 /// gap / (R1 + R2) of a pair.
@@ -31,19 +31,6 @@ std::vector<Pair> contacts_within(const Crowd& crowd, const std::vector<Pair>& n
   for (const Pair& p : near)
     if (share(crowd, p) <= tolerance) contacts.push_back(p);
   return contacts;
-}
-
-std::vector<char> bulk_of(const Crowd& crowd) {
-  std::vector<char> bulk(crowd.moving);
-  for (std::size_t i = 0; i < crowd.moving; ++i)
-    bulk[i] = crowd.walls.distance(crowd.ball[i].x) > bulk_margin;
-  if (crowd.ball.size() == crowd.moving) return bulk;
-  for (const Pair& p : near_pairs(crowd, bulk_margin))
-    if (std::size_t(p.j) >= crowd.moving) {
-      const Ball &a = crowd.ball[std::size_t(p.i)], &b = crowd.ball[std::size_t(p.j)];
-      if ((b.x - a.x).norm() - b.r <= bulk_margin) bulk[std::size_t(p.i)] = 0;
-    }
-  return bulk;
 }
 
 /// Elements that are not held: fewer than four contacts with walls and with elements that are held
@@ -171,19 +158,24 @@ Real density_in_bulk(const Packing& packing, Real margin) {
   InsertionGrid elements(packing.region, *std::max_element(packing.radius.begin(), packing.radius.end()));
   for (std::size_t i = 0; i < packing.radius.size(); ++i)
     elements.add({packing.position[i], packing.radius[i]});
+  packing.pause();
   InsertionGrid obstacles(packing.region, std::max(margin, inradius(packing.region) / 20));
   for (std::size_t k = 0; k < packing.around.radius.size(); ++k)
     obstacles.add_obstacle({packing.around.position[k], packing.around.radius[k]});
   const Region inner = shrunk(packing.region, margin);
-  std::uint64_t counted = 0, filled = 0;
-#pragma omp parallel for schedule(static) reduction(+ : counted, filled)
-  for (std::uint64_t k = 0; k < points; ++k) {
-    const Vec3 x = point_in(inner, even_point(k));
-    if (!obstacles.clear_of_obstacles(x, margin)) continue;
-    ++counted;
-    filled += elements.clearance({x, 0}, 0) < 0;
-  }
-  return counted ? Real(filled) / Real(counted) : 0;
+  struct Hits {
+    std::uint64_t counted = 0, filled = 0;
+    Hits& operator+=(const Hits& more) { return counted += more.counted, filled += more.filled, *this; }
+  };
+  const auto hits = sum_shared<Hits>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, Hits& sum) {
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const Vec3 x = point_in(inner, even_point(k));
+      if (!obstacles.clear_of_obstacles(x, margin)) continue;
+      ++sum.counted;
+      sum.filled += elements.clearance({x, 0}, 0) < 0;
+    }
+  });
+  return hits.counted ? Real(hits.filled) / Real(hits.counted) : 0;
 }
 
 Packing packing_of(const Region& region, const Dispersion& dispersion, std::vector<Vec3> position,

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/base/memory.hpp"
+#include "core/base/parallel.hpp"
 #include "core/domain/domain.hpp"
 #include "core/packing/even_points.hpp"
 #include "core/packing/insertion.hpp"
@@ -26,17 +28,18 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
+// An element, and the lists of its neighbours and contacts, while it is arranged: more, rather than less.
+constexpr Real bytes_of_element = 400;
+
 Real share_clear(const Region& region, const Obstacles& around, Real margin) {
   constexpr std::uint64_t points = 100000;
   // Cells need not be as small as the margin where the region is large.
   InsertionGrid grid(region, std::max(margin, inradius(region) / 20));
   for (std::size_t k = 0; k < around.position.size(); ++k)
     grid.add_obstacle({around.position[k], around.radius[k]});
-  std::uint64_t clear = 0;
-#pragma omp parallel for schedule(static) reduction(+ : clear)
-  for (std::uint64_t k = 0; k < points; ++k) {
-    clear += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
-  }
+  const auto clear = sum_shared<std::uint64_t>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, std::uint64_t& sum) {
+    for (std::uint64_t k = begin; k < end; ++k) sum += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
+  });
   return Real(clear) / Real(points);
 }
 
@@ -93,6 +96,13 @@ Sizing from_count(const Request& q) {
   }
   if (!(R > 0))
     throw PackingFailure("the obstacles leave no room for an element: remove some, or enlarge the region");
+  const Real solid = count * 4 / 3 * std::numbers::pi * R * R * R * mean_cube(q.dispersion);
+  const Real share = solid / free_volume(q.region, q.around);
+  constexpr Real so_few = 0.01;
+  if (share < so_few)
+    throw PackingFailure(text("the region is too thin for so few elements: ", *q.count, " of them, no larger than fits between its walls (mean radius ",
+                              R, "), take up a share of ", share, " of it; make the region thicker, or ask for about ",
+                              count * bulk_density / share, " elements"));
   return {static_cast<std::size_t>(*q.count), R};
 }
 
@@ -110,7 +120,9 @@ Real free_volume(const Region& region, const Obstacles& around) {
 
 Sizing sizing_of(const Request& q) {
   check(q);
-  return q.count ? from_count(q) : from_mean_radius(q);
+  const Sizing sizing = q.count ? from_count(q) : from_mean_radius(q);
+  if (const std::string why = why_no_memory(Real(sizing.count), "elements", bytes_of_element); !why.empty()) throw PackingFailure(why);
+  return sizing;
 }
 
 }  // namespace beadwork::packing

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
 
 #include "core/base/pack.hpp"
 #include "core/domain/domain.hpp"
@@ -14,11 +15,26 @@
 
 namespace beadwork {
 
+/// What every law sees. Each says what it reads beyond that, and sees no more: what is not read is not there.
 template <class T>
 struct Ends {
-  Vec<T> apart;           ///< x2 - x1 [m]
-  Quaternion<T> q1, q2;   ///< where the law turns
-  Vec<T> v1, v2, w1, w2;  ///< velocities and spins, where the law reads them
+  Vec<T> apart;  ///< x2 - x1 [m]
+};
+/// For a law with `turns`.
+template <class T>
+struct TurningEnds : Ends<T> {
+  Quaternion<T> q1, q2;  ///< orientations
+};
+/// For a law with `moves`.
+template <class T>
+struct MovingEnds : Ends<T> {
+  Vec<T> v1, v2;  ///< velocities [m/s]
+};
+/// For a law with both.
+template <class T>
+struct TurningMovingEnds : TurningEnds<T> {
+  Vec<T> v1, v2;  ///< velocities [m/s]
+  Vec<T> w1, w2;  ///< spins [rad/s]
 };
 
 template <class Law>
@@ -26,6 +42,10 @@ constexpr bool moves() {
   if constexpr (requires { Law::moves; }) return Law::moves;
   return false;
 }
+
+template <class Law, class T>
+using EndsOf = std::conditional_t<moves<Law>(), std::conditional_t<Law::turns, TurningMovingEnds<T>, MovingEnds<T>>,
+                                  std::conditional_t<Law::turns, TurningEnds<T>, Ends<T>>>;
 
 struct Pass {
   bool settle = false;
@@ -123,9 +143,9 @@ class ElementLines {
   }
 
   template <class Law>
-  [[gnu::always_inline]] Ends<Real> ends(Index i, Index j) const {
+  [[gnu::always_inline]] EndsOf<Law, Real> ends(Index i, Index j) const {
     const Real *x1 = at(position_, i, pose_), *x2 = at(position_, j, pose_);
-    Ends<Real> ends;
+    EndsOf<Law, Real> ends;
     ends.apart = {x2[0] - x1[0], x2[1] - x1[1], x2[2] - x1[2]};
     if constexpr (Law::turns) {
       const Real *q1 = at(orientation_, i, pose_), *q2 = at(orientation_, j, pose_);
@@ -159,11 +179,11 @@ class ElementLines {
 
   /// As above for the bonds of several lanes, whose ends stand at i[0], i[1], ... and j[0], j[1], ...
   template <class Law, int W>
-  [[gnu::always_inline]] Ends<Pack<W>> ends(const Index* i, const Index* j) const {
+  [[gnu::always_inline]] EndsOf<Law, Pack<W>> ends(const Index* i, const Index* j) const {
     const auto line = [](std::byte* base, std::size_t stride, const Index* of, int half) {
       return pack::fetch<W>([=](int lane) { return at(base, of[lane], stride) + 4 * half; });
     };
-    Ends<Pack<W>> ends;
+    EndsOf<Law, Pack<W>> ends;
     if constexpr (!Law::turns) {
       ends.apart = apart<W>(i, j);
     } else {  // x y z qw | qx qy qz

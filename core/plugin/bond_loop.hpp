@@ -5,7 +5,15 @@
 //   template <Pass pass, class At, class T> Wrench<T> act(const At& at, const Ends<T>& ends) const;
 //   template <class At, class T> T stored(const At& at, const Ends<T>& ends) const;      // recoverable energy [J]
 //   template <class At> auto dissipated(const At& at) const;                              // if it takes any [J]
-//   static constexpr bool moves = true;    // if it reads velocities, and spins where it turns
+//
+// `Ends<T>` has how far the ends are apart. Only a law that says so sees more, and names what it sees: with `turns` it takes
+// `TurningEnds<T>`, with
+//
+//   static constexpr bool moves = true;    // reads velocities, and spins where it turns
+//
+// `MovingEnds<T>` or `TurningMovingEnds<T>`. The velocities are those of the step whose forces are asked for. Such a law says what it takes:
+//
+//   template <class At, class T> T power(const At& at, const MovingEnds<T>& ends) const;  // that its damping takes [W]
 //
 // `At` stands for the bonds at hand, one or as many as a pack has lanes: at(column) loads their numbers, at.store(column,
 // value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T. Numbers
@@ -121,10 +129,16 @@ Real sum(const BondTable& table, const F& f) {
 
 }  // namespace bond_loop
 
+/// A law that reads velocities has to say how they damp, or it is no class of which there can be objects.
+class MovingBondLaw : public BondLaw {
+ public:
+  Matrix12 damping(const Domain& domain, const BondTable& table, Index row) const override = 0;
+};
+
 /// A bond law whose loop is the core's. The plugin builds the law as a value, with its columns, in `law()`; where the deck
 /// chooses among several laws, each is a loop of its own.
 template <class... Laws>
-class BondLawOf : public BondLaw {
+class BondLawOf : public std::conditional_t<(beadwork::moves<Laws>() || ...), MovingBondLaw, BondLaw> {
  public:
   using AnyLaw = std::variant<Laws...>;
 
@@ -176,6 +190,12 @@ class BondLawOf : public BondLaw {
   bool turns() const override {
     return std::visit([]<class Law>(const Law&) { return Law::turns; }, law());
   }
+  bool moves() const final {
+    return std::visit([]<class Law>(const Law&) { return beadwork::moves<Law>(); }, law());
+  }
+  Real power(const Domain& domain, const BondTable& table) const final {
+    return std::visit([&](const auto& value) { return power_of(value, domain, table); }, law());
+  }
   bool can_be_single() const final {
     return std::visit([]<class Law>(const Law&) { return has_shift<Law>(); }, law());
   }
@@ -191,6 +211,18 @@ class BondLawOf : public BondLaw {
     if constexpr (has_shift<Law>())
       if (how.single) return bond_loop::run<Pass{settle, sections, true}>(value, table, domain, how.clear);
     return bond_loop::run<Pass{settle, sections, false}>(value, table, domain, how.clear);
+  }
+  template <class Law>
+  static Real power_of(const Law& value, const Domain& domain, const BondTable& table) {
+    if constexpr (beadwork::moves<Law>()) {
+      const auto lines = ElementLines::of(domain);
+      return bond_loop::sum(table, [&](Index row) {
+        bool ignored = false;
+        return value.power(One{row, &ignored}, lines.template ends<Law>(table.first()[row], table.second()[row]));
+      });
+    } else {
+      return 0;
+    }
   }
   template <class Law>
   static Real stored_by(const Law& value, const ElementLines& lines, const BondTable& table, Index row) {

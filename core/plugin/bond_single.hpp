@@ -9,7 +9,7 @@ namespace beadwork {
 
 template <class Law>
 constexpr bool has_shift() {
-  return requires(const Law& law, const One& at, const Ends<Real>& ends) { law.shift(at, ends); };
+  return requires(const Law& law, const One& at, const EndsOf<Law, Real>& ends) { law.shift(at, ends); };
 }
 
 /// One bond, and as many as two packs hold, in single precision. Columns stay in double.

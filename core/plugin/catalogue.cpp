@@ -9,6 +9,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/readable.hpp"
 #include "core/base/text.hpp"
+#include "core/plugin/blame.hpp"
 
 namespace beadwork {
 
@@ -45,7 +46,9 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
       const fs::path real = widest_variant(canonical_path(path.string()), sets);
       if (std::find(opened.begin(), opened.end(), real) != opened.end()) continue;
       opened.push_back(real);
-      catalogue.add(open_library(real));
+      Library library = open_library(real);
+      if (&place != &places.back()) library.named = fs::absolute(path).lexically_normal();
+      catalogue.add(std::move(library));
       for (const std::string& set : sets)
         if (real.parent_path().filename() == set) catalogue.instructions_ = set;
     }
@@ -55,7 +58,7 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
 
 void Catalogue::add(Library library) {
   for (const PluginEntry& entry : library.entries) {
-    const auto [there, fresh] = entries_.try_emplace({entry.kind, entry.tag}, Place{entry, library.path});
+    const auto [there, fresh] = entries_.try_emplace({entry.kind, entry.tag}, Place{entry, library.path, library.named});
     if (!fresh)
       throw LibraryFailure(fmt::format("<{}> <{}> is in two plugin libraries: {} and {}. Remove or rename one of them",
                                        kind_name(entry.kind), entry.tag, there->second.library.string(),
@@ -69,9 +72,14 @@ const PluginEntry* Catalogue::find(Kind kind, const std::string& tag) const {
   return found == entries_.end() ? nullptr : &found->second.entry;
 }
 
-std::unique_ptr<Plugin> Catalogue::make(Kind kind, const std::string& tag) const {
+std::unique_ptr<Plugin> Catalogue::make(Kind kind, const std::string& tag, const std::string& at) const {
   const PluginEntry* found = find(kind, tag);
-  return found ? found->make() : nullptr;
+  if (!found) return nullptr;
+  try {
+    return found->make();
+  } catch (...) {
+    blame(fmt::format("{}error: plugin {}.{} of {} failed in its constructor", at.empty() ? "" : at + ": ", kind_name(kind), tag, library_of(kind, tag)));
+  }
 }
 
 std::vector<std::string> Catalogue::tags(Kind kind) const {
@@ -91,6 +99,11 @@ std::vector<Kind> Catalogue::kinds_of(const std::string& tag) const {
 std::string Catalogue::library_of(Kind kind, const std::string& tag) const {
   const auto found = entries_.find({kind, tag});
   return found == entries_.end() ? "" : found->second.library.string();
+}
+
+std::string Catalogue::named_library(Kind kind, const std::string& tag) const {
+  const auto found = entries_.find({kind, tag});
+  return found == entries_.end() ? "" : found->second.named.string();
 }
 
 }  // namespace beadwork

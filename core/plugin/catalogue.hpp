@@ -21,7 +21,8 @@ class Catalogue {
   void add(Library library);
 
   const PluginEntry* find(Kind kind, const std::string& tag) const;
-  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag) const;
+  /// `at` names the place in the deck, if there is one, should its constructor throw.
+  std::unique_ptr<Plugin> make(Kind kind, const std::string& tag, const std::string& at = "") const;
   std::vector<std::string> tags(Kind kind) const;
   /// Every kind in which this tag is known.
   std::vector<Kind> kinds_of(const std::string& tag) const;
@@ -29,11 +30,13 @@ class Catalogue {
   /// The instruction set of the variants that were opened, baseline if none was.
   const std::string& instructions() const { return instructions_; }
   std::string library_of(Kind kind, const std::string& tag) const;
+  /// The library that a deck has to name to have this plugin, whatever the command line and the environment name; "" if none.
+  std::string named_library(Kind kind, const std::string& tag) const;
 
  private:
   struct Place {
     PluginEntry entry;
-    std::filesystem::path library;
+    std::filesystem::path library, named;
   };
   std::map<std::pair<Kind, std::string>, Place> entries_;
   std::vector<Library> libraries_;

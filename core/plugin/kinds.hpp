@@ -1,14 +1,18 @@
 #pragma once
 // The kinds of plugins: in which section of a deck each stands, when it runs, and what it may change.
 
+#include <algorithm>
 #include <any>
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 
 #include "core/base/headway.hpp"
+#include "core/base/parallel.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/mechanics/stiffness.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/plugin/plugin.hpp"
 
 namespace beadwork {
@@ -30,8 +34,7 @@ struct FillJob {
   std::uint64_t seed = 0;
   std::function<void(const std::string&)> say;  ///< a line for the log
   std::function<void(const std::string&)> warn;
-  std::function<void(const std::string& json)> report;          ///< a packing report, a JSON object
-  std::function<std::string(const std::string&)> resolve_path;  ///< a path of the deck, from the deck's folder
+  std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
   /// To be called now and then in long work: throws Interrupted if the user wants to stop.
   std::function<void()> pause = [] {};
   /// To be called now and then in long work: how far it has come.
@@ -79,6 +82,12 @@ class BondLaw : public Plugin {
                    .range = not_negative,
                    .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
                    .fallback = "1e-3"}};
+  Param<std::string> neighbours{this,
+                                {.name = "neighbours",
+                                 .doc = "Which elements within 'gap' are bonded: all, or the next only, none over a third that lies between the two: "
+                                        "for a row of elements that overlap",
+                                 .fallback = "all",
+                                 .choices = {"all", "next"}}};
 
   std::string family() const override { return *name; }
 
@@ -102,6 +111,13 @@ class BondLaw : public Plugin {
   virtual Real dissipated_energy(const Domain&, const BondTable&) const { return 0; }
   /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2). Asked by several threads at once.
   virtual Matrix12 tangent(const Domain& domain, const BondTable& table, Index row) const = 0;
+  /// True if the force depends on velocities, and on spins where it turns.
+  virtual bool moves() const { return false; }
+  /// How the force of such a law opposes velocities, beside the tangent: loads = -C rates, rates (v1, w1, v2, w2), symmetric. The largest
+  /// that it can become: a time step must be stable for it. Asked by several threads at once.
+  virtual Matrix12 damping(const Domain&, const BondTable&, Index) const { return Matrix12::Zero(); }
+  /// Power that such forces take at the present velocities, over the live bonds [W].
+  virtual Real power(const Domain&, const BondTable&) const { return 0; }
   /// True if the tangent has rotational parts.
   virtual bool turns() const { return true; }
   /// True if forces can be found in single precision.
@@ -125,11 +141,18 @@ struct Constraint {
   Grip grip = Grip::each;
   bool driven = false;                           ///< it moves (pull), as against holding still
   std::function<PrescribedMotion(Real)> motion;  ///< displacement, velocity, acceleration by the time since it began
+  Real reach = std::numeric_limits<Real>::infinity();  ///< farthest that it ever gets from where it has been [m]
   Real began = 0;                                ///< start of the first stage in which the load stands [s]
   Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
   Real work = 0;                                 ///< of these forces so far [J]
 
-  PrescribedMotion at(Real time) const { return motion(time - began); }
+  PrescribedMotion at(Real time) const {
+    try {
+      return motion(time - began);
+    } catch (...) {
+      blame("error: plugin " + by + " failed in the motion that it prescribes");
+    }
+  }
 };
 
 class Load : public Plugin {
@@ -160,11 +183,10 @@ class Workings {
   virtual void evaluate(bool settle) = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
-  /// As in Sight: the energy balance as it stands.
-  virtual void energies(EnergySink& sink) const = 0;
-  virtual Real initial_energy() const = 0;
   virtual void say(const std::string& line) = 0;
   virtual void warn(const std::string& line) = 0;
+  /// For what may come again and again: of all lines on one subject the first is said, and the newest at the end of the run.
+  virtual void say_once(const std::string& subject, const std::string& line) = 0;
 };
 
 class Mover : public Plugin {
@@ -190,12 +212,24 @@ class Mover : public Plugin {
   virtual void complete(Workings&) {}
   /// Whether bonds act in single precision, where their law can.
   virtual bool in_single() const { return false; }
+  /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not the energy itself but
+  /// the energy less this [J].
+  virtual Real swing() const { return 0; }
+  /// What is probably wrong where the balance gains energy that nobody brought.
+  virtual std::string suspect() const { return "a law's force is probably not the slope of its stored energy"; }
   /// For `plan`: the time step [s] and what limits it.
   virtual Real time_step() const = 0;
   virtual std::string limited_by() const { return ""; }
 };
 
 // ---------------------------------------------------------------------------------------------------- fail
+
+/// What a criterion finds among the bonds of its family.
+struct Verdict {
+  std::vector<Index> fallen;  ///< rows of the bonds that break, ascending
+  Real largest = 0;           ///< utilisation: what the criterion finds over its threshold
+  Index row = -1;             ///< of the bond that has it; -1 where none has any
+};
 
 class Failure : public Plugin {
  public:
@@ -205,10 +239,36 @@ class Failure : public Plugin {
   Writes<Real> utilisation{this, field_utilisation()};
 
   std::string family() const override { return *of; }
-  /// Rows of the bonds that fall, ascending: all are judged on one configuration, so that no order matters.
-  virtual std::vector<Index> judge(const Domain& domain, const BondTable& table) = 0;
-  /// Name of the way in which bonds fall, for the log.
+  /// All bonds are judged on one configuration, so that no order matters. Also called at other steps than those of `every`, for those
+  /// who want to see utilisations; then nothing breaks.
+  virtual Verdict judge(const Domain& domain, const BondTable& table) = 0;
+  /// Name of the way in which bonds break, for the log.
   virtual std::string mode() const = 0;
+
+ protected:
+  /// The pass over the live bonds, which the threads share: f(row) is the utilisation of a bond, which breaks from 1 on. Written where
+  /// somebody reads it; of several criteria for one family the largest.
+  template <class F>
+  Verdict judge_each(const BondTable& table, const F& f) const {
+    std::vector<Verdict> parts(table.chunks().size());
+    each_shared(static_cast<Index>(parts.size()), [&](Index c) {
+      const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
+      Verdict part;
+      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+        const Real use = f(b);
+        if (utilisation) utilisation[b] = std::max(utilisation[b], use);
+        if (use > part.largest) part.largest = use, part.row = b;
+        if (use >= 1) part.fallen.push_back(b);
+      }
+      parts[static_cast<std::size_t>(c)] = std::move(part);
+    });
+    Verdict all;
+    for (const Verdict& part : parts) {
+      all.fallen.insert(all.fallen.end(), part.fallen.begin(), part.fallen.end());
+      if (part.largest > all.largest) all.largest = part.largest, all.row = part.row;
+    }
+    return all;
+  }
 
  private:
   static const Field& field_utilisation();
@@ -243,6 +303,9 @@ struct CurvePlan {
   std::string kind;                     ///< "ledger" for an energy balance
 };
 
+/// In the place of the name of a field: all that there are.
+inline constexpr const char* every_field = "all";
+
 struct FramePlan {
   std::vector<std::string> fields;
   bool picture = false;
@@ -274,10 +337,11 @@ class Watcher : public Plugin {
       this,
       {.name = "at",
        .doc = "Moments of single looks, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
-              "(0.3 mm), counted from the start of the stage as in 'until'; beside 'every' or instead of it",
+              "(0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the stage, at which every watcher looks in any "
+              "case; beside 'every' or instead of it",
        .optional = true}};
-  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at', and brings up to date
-  /// what the watcher reads.
+  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at' and to the end of the stage, and
+  /// brings up to date what the watcher reads.
   virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
   /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
   virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "core/base/failure.hpp"
-#include "core/base/readable.hpp"
+#include "core/plugin/elf.hpp"
 #include "core/plugin/stamp.hpp"
 
 namespace beadwork {
@@ -16,7 +16,6 @@ namespace {
 
 // What the loader says is lost on the way through Boost.DLL; it is asked once more.
 std::string why_not(const std::filesystem::path& path) {
-  if (std::string why = why_unreachable(path); !why.empty()) return why;
   dlerror();
   dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   const char* said = dlerror();
@@ -56,6 +55,8 @@ std::filesystem::path widest_variant(const std::filesystem::path& path, const st
 }
 
 Library open_library(const std::filesystem::path& path) {
+  if (const std::string why = why_no_shared_library(path); !why.empty())
+    throw LibraryFailure(fmt::format("cannot open plugin library {}: {}", path.string(), why));
   boost::dll::fs::error_code error;
   auto* library = new boost::dll::shared_library;  // never unloaded, on purpose
   library->load(path,
@@ -64,12 +65,27 @@ Library open_library(const std::filesystem::path& path) {
   if (!library->has(stamp_entry) || !library->has(list_entry))
     throw LibraryFailure(fmt::format("{} is no plugin library: it lacks {} or {} (build it with beadwork_add_plugins)",
                                      path.string(), stamp_entry, list_entry));
-  const std::string theirs = library->get<StampEntry>(stamp_entry)();
+  const auto ask = [&](const auto& entry) {
+    try {
+      return entry();
+    } catch (const std::exception& error_of_theirs) {
+      throw LibraryFailure(fmt::format("plugin library {} failed as it was asked for its plugins: {}", path.string(), error_of_theirs.what()));
+    } catch (...) {
+      throw LibraryFailure(fmt::format("plugin library {} failed as it was asked for its plugins: it threw something that is no std::exception", path.string()));
+    }
+  };
+  const char* stamp = ask([&] { return library->get<StampEntry>(stamp_entry)(); });
+  const std::string theirs = stamp ? stamp : "none";
   const std::string ours = compiled_stamp();
   if (theirs != ours)
     throw LibraryFailure(fmt::format("plugin library {} does not fit this program: rebuild it\n  library: {}\n  program: {}",
                                      path.string(), theirs, ours));
-  return {path, theirs, *library->get<ListEntry>(list_entry)()};
+  const auto* list = ask([&] { return library->get<ListEntry>(list_entry)(); });
+  if (!list) throw LibraryFailure(fmt::format("plugin library {} hands over no list of plugins", path.string()));
+  for (const PluginEntry& entry : *list)
+    if (!entry.make || std::find(std::begin(all_kinds), std::end(all_kinds), entry.kind) == std::end(all_kinds))
+      throw LibraryFailure(fmt::format("plugin library {} hands over <{}>, which is of no kind that there is or cannot be made", path.string(), entry.tag));
+  return {path, theirs, *list};
 }
 
 }  // namespace beadwork

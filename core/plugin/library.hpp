@@ -20,6 +20,7 @@ struct Library {
   std::filesystem::path path;
   std::string version;  ///< of the kernel it was built for
   std::vector<PluginEntry> entries;
+  std::filesystem::path named = {};  ///< as a deck has to name it; empty where it is found without
 };
 
 /// The instruction sets beyond the processor's baseline for which libraries exist in variants, widest first, of those that

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/base/text.hpp"
 #include "core/deck/read.hpp"
@@ -16,16 +17,24 @@ std::string in_unit(Real value, const std::string& unit) {
   return unit == "1" ? format_number(value) : format_quantity(value, unit);
 }
 
+// In the unit that the parameter is declared with (N.m, where J would be as long), as far as that is one of SI.
+std::string si_unit(const std::string& unit) {
+  const auto found = find_unit(unit);
+  if (unit == "1" || found->scale == 1) return unit;
+  return unit == "deg" || unit == "degree" ? "rad" : found->dimension.name();
+}
+
 std::string si(Real value, const std::string& unit) {
-  if (unit == "1") return format_number(value);
-  const std::string name = find_unit(unit)->dimension.name();
+  const std::string name = si_unit(unit);
   return name == "1" ? format_number(value) : format_number(value) + " " + name;
 }
 
-bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, Complaints& complaints) {
+std::string absolute(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
+
+bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, const Scope& scope, Complaints& complaints) {
   if (info.range.holds(value)) return true;
   complaints.error(attribute.value_at, fmt::format("'{}' must be {}, got \"{}\"", info.name,
-                                                   info.range.text(info.unit), attribute.value));
+                                                   info.range.text(info.unit), shown_value(attribute, scope)));
   return false;
 }
 
@@ -37,18 +46,18 @@ bool keep_if(std::optional<R> read, T& value) {
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Real& value) {
-  return keep_if(read_quantity(a, info.unit, scope, c), value) && in_range(value, info, a, c);
+  return keep_if(read_quantity(a, info.unit, scope, c), value) && in_range(value, info, a, scope, c);
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Vec3& value) {
   if (!keep_if(read_vector(a, info.unit, scope, c), value)) return false;
   for (int axis = 0; axis < 3; ++axis)
-    if (!in_range(value[axis], info, a, c)) return false;
+    if (!in_range(value[axis], info, a, scope, c)) return false;
   return true;
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, std::int64_t& value) {
-  return keep_if(read_integer(a, scope, c), value) && in_range(static_cast<Real>(value), info, a, c);
+  return keep_if(read_integer(a, scope, c), value) && in_range(static_cast<Real>(value), info, a, scope, c);
 }
 
 bool take_value(const ParamInfo&, const Attribute& a, const Scope& scope, Complaints& c, bool& value) {
@@ -57,14 +66,16 @@ bool take_value(const ParamInfo&, const Attribute& a, const Scope& scope, Compla
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, std::string& value) {
   if (!info.choices.empty()) return keep_if(read_choice(a, info.choices, scope, c), value);
-  return keep_if(read_text(a, scope, c), value);
+  if (!keep_if(read_text(a, scope, c), value)) return false;
+  if (info.role == Role::file) value = path_beside(a.value_at, value);
+  return true;
 }
 
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c,
                 std::vector<std::string>& value) {
-  if (!keep_if(read_words(a, scope, c), value)) return false;
+  if (!keep_if(info.role == Role::file ? read_paths(a, scope, c) : read_words(a, scope, c), value)) return false;
   if (info.count > 0 && static_cast<int>(value.size()) != info.count) {
-    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), a.value));
+    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), shown_value(a, scope)));
     return false;
   }
   if (info.choices.empty()) return true;
@@ -76,6 +87,10 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
   return true;
 }
 
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, QuantityRows& value) {
+  return keep_if(read_rows(a, info.columns, scope, c), value);
+}
+
 bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
   value.text = a.value;
   value.expression = Expression::compile(a, scope, info.variables, c);
@@ -83,11 +98,11 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
   const bool condition = value.expression->is_condition();
   if (info.unit.empty()) {
     if (condition) return true;
-    c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, a.value));
+    c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, shown_value(a, scope)));
     return false;
   }
   if (value.expression->has_dimension(find_unit(info.unit)->dimension)) return true;
-  c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), a.value,
+  c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), shown_value(a, scope),
                                   condition ? "a condition" : value.expression->dimension().name()));
   return false;
 }
@@ -102,6 +117,7 @@ std::string words_of(const std::string*, const ParamInfo& info) {
 std::string words_of(const std::vector<std::string>*, const ParamInfo& info) {
   return info.count > 0 ? fmt::format("{} words", info.count) : "words";
 }
+std::string words_of(const QuantityRows*, const ParamInfo& info) { return "rows of " + join(info.columns, " and "); }
 std::string words_of(const Formula*, const ParamInfo& info) { return info.unit.empty() ? "condition" : "formula"; }
 
 std::string text_of_value(const Real& v, const ParamInfo& info) { return si(v, info.unit); }
@@ -110,9 +126,23 @@ std::string text_of_value(const Vec3& v, const ParamInfo& info) {
 }
 std::string text_of_value(const std::int64_t& v, const ParamInfo&) { return std::to_string(v); }
 std::string text_of_value(const bool& v, const ParamInfo&) { return v ? "yes" : "no"; }
-std::string text_of_value(const std::string& v, const ParamInfo&) { return v; }
-std::string text_of_value(const std::vector<std::string>& v, const ParamInfo&) { return join(v, " "); }
-std::string text_of_value(const Formula& v, const ParamInfo&) { return v.text; }
+std::string text_of_value(const std::string& v, const ParamInfo& info) { return info.role == Role::file ? absolute(v) : v; }
+std::string text_of_value(const std::vector<std::string>& v, const ParamInfo& info) {
+  if (info.role != Role::file) return join(v, " ");
+  std::vector<std::string> paths;
+  for (const std::string& path : v) paths.push_back(absolute(path));
+  return text_of_paths(paths);
+}
+std::string text_of_value(const QuantityRows& v, const ParamInfo& info) {
+  std::vector<std::string> rows;
+  for (const auto& row : v) {
+    std::vector<std::string> words;
+    for (std::size_t k = 0; k < row.size(); ++k) words.push_back(si(row[k], info.columns[k]));
+    rows.push_back(join(words, " "));
+  }
+  return join(rows, ", ");
+}
+std::string text_of_value(const Formula& v, const ParamInfo&) { return v.expression->text(); }
 
 }  // namespace
 
@@ -186,6 +216,7 @@ template class Param<std::int64_t>;
 template class Param<bool>;
 template class Param<std::string>;
 template class Param<std::vector<std::string>>;
+template class Param<QuantityRows>;
 template class Param<Formula>;
 
 }  // namespace beadwork

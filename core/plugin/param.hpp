@@ -47,14 +47,18 @@ struct ParamInfo {
   Role role = Role::plain;
   int count = 0;                       ///< of several words: how many are wanted; 0 is any number
   std::vector<Variable> variables = {};   ///< of a formula
+  std::vector<std::string> columns = {};  ///< of rows: the unit of each column
   std::string instead = {};            ///< an attribute that may stand in place of this one: with it there is no fallback
   std::string one_of = {};             ///< of the parameters that name one such group, exactly one is to be given
 };
 
+/// QuantityRows of quantities, such as `0 s 0 m/s, 1 ms 2 m/s`, in SI.
+using QuantityRows = std::vector<std::vector<Real>>;
+
 /// A formula on quantities, such as `x < 13.5 mm`.
 struct Formula {
   std::optional<Expression> expression;
-  std::string text;
+  std::string text;  ///< as it stands in the deck
   Real operator()(std::span<const Real> values) const { return expression->evaluate(values); }
 };
 
@@ -79,7 +83,7 @@ class ParamBase {
   void read_fallback(const Location& at, const Scope& scope, Complaints& complaints);
 
   virtual std::string type() const = 0;  ///< in words, for the manual
-  virtual std::string text() const = 0;  ///< the value in SI, as a deck would give it
+  virtual std::string text() const = 0;  ///< the value in SI, as any deck may give it: without parameters, paths absolute
   /// The names it holds, if its role is one of names.
   virtual std::vector<std::string> names() const { return {}; }
 
@@ -94,7 +98,8 @@ class ParamBase {
   std::string written_;  ///< the value as it stands in the deck
 };
 
-/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string> or Formula.
+/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string>, QuantityRows or Formula. A text whose role is that of a
+/// file becomes a path that can be opened.
 template <class T>
 class Param final : public ParamBase {
  public:
@@ -119,6 +124,7 @@ extern template class Param<std::int64_t>;
 extern template class Param<bool>;
 extern template class Param<std::string>;
 extern template class Param<std::vector<std::string>>;
+extern template class Param<QuantityRows>;
 extern template class Param<Formula>;
 
 }  // namespace beadwork

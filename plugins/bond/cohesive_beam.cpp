@@ -25,7 +25,7 @@ struct CohesiveBeamLaw {
   }
 
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const TurningEnds<T>& ends) const {
     const Wrench<T> wrench = beam_wrench<T>(rest(at), ends.apart, ends.q1, ends.q2);
     if constexpr (pass.sections) tell(at, beam_section<T>(ends.apart, wrench));
     return wrench;
@@ -33,7 +33,7 @@ struct CohesiveBeamLaw {
 
   // in single precision
   template <class At, class T>
-  [[gnu::always_inline]] BeamShift<T> shift(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] BeamShift<T> shift(const At& at, const TurningEnds<T>& ends) const {
     return beam_shift<T>(rest(at), ends.apart, ends.q1, ends.q2);
   }
   template <Pass pass, class At, class T>
@@ -53,7 +53,7 @@ struct CohesiveBeamLaw {
   }
 
   template <class At, class T>
-  T stored(const At& at, const Ends<T>& ends) const {
+  T stored(const At& at, const TurningEnds<T>& ends) const {
     return beam_energy<T>(rest(at), ends.apart, ends.q1, ends.q2).total();
   }
 };
@@ -63,15 +63,15 @@ struct CohesiveBeamFromTurned : CohesiveBeamLaw {
   View<const Quat> reference1, reference2;
 
   template <class At, class T>
-  [[gnu::always_inline]] Ends<T> since_bonding(const At& at, const Ends<T>& ends) const {
-    Ends<T> since;
+  [[gnu::always_inline]] TurningEnds<T> since_bonding(const At& at, const TurningEnds<T>& ends) const {
+    TurningEnds<T> since;
     since.apart = ends.apart;
     since.q1 = ends.q1 * conjugate(at(reference1));
     since.q2 = ends.q2 * conjugate(at(reference2));
     return since;
   }
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const TurningEnds<T>& ends) const {
     return CohesiveBeamLaw::act<pass>(at, since_bonding(at, ends));
   }
   template <Pass pass, class At, class T>
@@ -79,11 +79,11 @@ struct CohesiveBeamFromTurned : CohesiveBeamLaw {
     return CohesiveBeamLaw::act<pass>(at, s);
   }
   template <class At, class T>
-  [[gnu::always_inline]] BeamShift<T> shift(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] BeamShift<T> shift(const At& at, const TurningEnds<T>& ends) const {
     return CohesiveBeamLaw::shift(at, since_bonding(at, ends));
   }
   template <class At, class T>
-  T stored(const At& at, const Ends<T>& ends) const {
+  T stored(const At& at, const TurningEnds<T>& ends) const {
     return CohesiveBeamLaw::stored(at, since_bonding(at, ends));
   }
 };

@@ -3,150 +3,44 @@
 #include "core/base/failure.hpp"
 #include "core/base/units.hpp"
 #include "core/domain/vocabulary.hpp"
-#include "core/mechanics/cohesive_stiffness.hpp"
-#include "core/plugin/bond_loop.hpp"
+#include "plugins/bond/cohesive_laws.hpp"
+#include "plugins/bond/interface_normals.hpp"
 
 namespace beadwork {
 
 namespace {
 
-const OwnField opening_field{"opening", On::bonds, "m", "Distance of the centres over that at rest, positive when pulled apart"};
+const OwnField opening_field{"opening", On::bonds, "m", "Distance of the two faces along the normal, positive when pulled apart"};
 const OwnField sliding_field{"sliding", On::bonds, "m", "Sliding of the two faces against each other"};
+
+using Opening = IndependentModes<CohesiveModes::normal>;
+using Sliding = IndependentModes<CohesiveModes::shear>;
+using Both = IndependentModes<CohesiveModes::both>;
+
+template <class Modes>
+using PairFacesLaw = CohesiveFaces<false, Modes>;
+template <class Modes>
+using CarriedFacesLaw = CohesiveFaces<true, Modes>;
 
 }  // namespace
 
-/// What the three cohesive laws share: rest state, history, and what is told of a bond.
-struct CohesiveColumns {
-  View<const Real> length, area;
-  View<const Vec3> arm1, arm2;
-  View<Real> largest_opening, largest_sliding;  // null where the mode is not asked for
-  View<Real> let_go;                            // energy that failure in the other mode took; both modes only
-  View<Real> damage, opening, sliding;          // null where nobody reads them
-  CohesiveLaws<Real> laws;
-
-  template <class At>
-  [[gnu::always_inline]] auto rest(const At& at) const {
-    return CohesiveRest<typename At::Number>{at(length), at(area)};
-  }
-};
-
-/// Opening alone: a central force.   Eqs (3)-(5)
-struct CohesiveOpening : CohesiveColumns {
-  static constexpr bool turns = false;
-
-  template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
-    const T history = at(largest_opening);
-    const CohesivePull<T> pull = cohesive_pull<T>(as<T>(laws.normal), rest(at), ends.apart, history);
-    if constexpr (pass.settle) {
-      at.store(largest_opening, pull.history);
-      at.flag(newly(history, pull.history, laws.normal.onset) || newly(history, pull.history, laws.normal.open));
-    }
-    if constexpr (pass.sections) {
-      if (damage) at.store(damage, beadwork::damage<T>(as<T>(laws.normal), pull.history));
-      if (opening) at.store(opening, normal_opening<T>(rest(at), ends.apart));
-    }
-    return {pull.force, zero<Vec<T>>(), zero<Vec<T>>()};
-  }
-
-  template <class At, class T>
-  T stored(const At& at, const Ends<T>& ends) const {
-    const auto r = rest(at);
-    return r.area * stored_per_area<T>(as<T>(laws.normal), normal_opening<T>(r, ends.apart), at(largest_opening));
-  }
-
-  template <class At>
-  auto dissipated(const At& at) const {
-    return at(area) * dissipated_per_area<Real>(laws.normal, at(largest_opening));
-  }
-
-  template <class T>
-  static auto newly(const T& before, const T& after, Real mark) {
-    return before < T(mark) && after >= T(mark);
-  }
-};
-
-/// Sliding alone, or both modes; failure in either removes both.
-template <CohesiveModes modes>
-struct CohesiveSliding : CohesiveColumns {
-  static constexpr bool turns = true;
-
-  template <class At>
-  auto arms(const At& at) const {
-    return ContactArms<typename At::Number>{at(arm1), at(arm2)};
-  }
-  template <class At>
-  auto history(const At& at) const {
-    using T = typename At::Number;
-    if constexpr (modes == CohesiveModes::both)
-      return Openings<T>{at(largest_opening), at(largest_sliding)};
-    else
-      return Openings<T>{T(0), at(largest_sliding)};
-  }
-
-  template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
-    const Openings<T> before = history(at);
-    const auto now = cohesive_wrench<modes, T>(as<T>(laws), rest(at), arms(at), ends.apart, ends.q1, ends.q2, before);
-    if constexpr (pass.settle) {
-      at.store(largest_sliding, now.history.shear);
-      if constexpr (modes == CohesiveModes::both) {
-        const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
-        at.store(let_go, at(let_go) + cohesive_released<modes, T>(as<T>(laws), rest(at), state.opening, before));
-        at.store(largest_opening, now.history.normal);
-      }
-      const auto slid = CohesiveOpening::newly(before.shear, now.history.shear, laws.shear.onset) ||
-                        CohesiveOpening::newly(before.shear, now.history.shear, laws.shear.open);
-      if constexpr (modes == CohesiveModes::both)
-        at.flag(slid || CohesiveOpening::newly(before.normal, now.history.normal, laws.normal.onset) ||
-                CohesiveOpening::newly(before.normal, now.history.normal, laws.normal.open));
-      else
-        at.flag(slid);
-    }
-    if constexpr (pass.sections) tell(at, ends, now.history);
-    return now.wrench;
-  }
-
-  template <class At, class T>
-  void tell(const At& at, const Ends<T>& ends, const Openings<T>& next) const {
-    const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
-    if (opening) at.store(opening, state.opening.normal);
-    if (sliding) at.store(sliding, state.opening.shear);
-    if (!damage) return;
-    const T shear = beadwork::damage<T>(as<T>(laws.shear), next.shear);
-    if constexpr (modes == CohesiveModes::both)
-      at.store(damage, max(shear, beadwork::damage<T>(as<T>(laws.normal), next.normal)));
-    else
-      at.store(damage, shear);
-  }
-
-  template <class At, class T>
-  T stored(const At& at, const Ends<T>& ends) const {
-    const auto state = contact_state<T>(rest(at), arms(at), ends.apart, ends.q1, ends.q2);
-    return cohesive_stored<modes, T>(as<T>(laws), rest(at), state.opening, history(at));
-  }
-
-  template <class At>
-  auto dissipated(const At& at) const {
-    const Real softened = cohesive_dissipated<modes, Real>(laws, rest(at), history(at));
-    if constexpr (modes == CohesiveModes::both)
-      return softened + at(let_go);
-    else
-      return softened;
-  }
-};
-
 /// Cohesive contact (CCM): linear up to the strength, then linear softening to zero.   Eqs (3)-(5)
 /// docs/theory/cohesive-contact.md
-class CohesiveContact final
-    : public BondLawOf<CohesiveOpening, CohesiveSliding<CohesiveModes::shear>, CohesiveSliding<CohesiveModes::both>> {
+class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sliding>, PairFacesLaw<Both>, PairFacesLaw<MixedMode>, CarriedFacesLaw<Opening>,
+                                               CarriedFacesLaw<Sliding>, CarriedFacesLaw<Both>, CarriedFacesLaw<MixedMode>> {
  public:
   static constexpr const char* about = "Cohesive contact (CCM): elastic up to the strength, then softening in a straight line to zero";
   Param<std::string> modes{this, {.name = "modes", .doc = "Which displacements the contact resists", .fallback = "normal", .choices = {"normal", "shear", "both"}}};
+  Param<std::string> normal{this, {.name = "normal", .doc = "What opening and sliding are measured against: pair, the line of centres (Eqs (3), (4); oblique contacts lock in shear); plane, the plane that the interface lies in; axis, away from the axis of a fibre", .fallback = "pair", .choices = {"pair", "plane", "axis"}}};
+  Param<Vec3> plane_normal{this, {.name = "plane-normal", .doc = "Normal of the plane, of any length and either sign; fitted to the points of contact where absent", .optional = true}};
+  Param<Vec3> axis_point{this, {.name = "axis-point", .unit = "m", .doc = "A point on the axis; where absent, rows of elements of the first set of 'between' are fibres with an axis each", .optional = true}};
+  Param<Vec3> axis_direction{this, {.name = "axis-direction", .doc = "Direction of the axis, of any length and either sign", .optional = true}};
   Param<Real> strength{this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Traction sigma at which damage starts"}};
   Param<Real> energy_{this, {.name = "energy", .unit = "J/m2", .range = positive, .doc = "Fracture energy G of the contact's area, Eq (5): u_p = 2 G / sigma"}};
   Param<Real> shear_strength{this, {.name = "shear-strength", .unit = "Pa", .range = positive, .doc = "Strength against sliding; as 'strength' where absent", .optional = true}};
   Param<Real> shear_energy{this, {.name = "shear-energy", .unit = "J/m2", .range = positive, .doc = "Fracture energy of sliding; as 'energy' where absent", .optional = true}};
+  Param<std::string> coupling{this, {.name = "coupling", .doc = "none: each mode by its own law, failure in either takes both; linear and benzeggagh-kenane: one damage for both modes, failure at the energy of that criterion for the mode mix", .fallback = "none", .choices = {"none", "linear", "benzeggagh-kenane"}}};
+  Param<Real> exponent{this, {.name = "exponent", .range = {0.5, 10}, .doc = "Exponent of Benzeggagh and Kenane, often 1.5 to 2.5", .optional = true}};
   Param<Real> stiffness{this, {.name = "stiffness", .unit = "Pa/m", .range = positive, .doc = "Traction over opening while undamaged, K", .one_of = "onset"}};
   Param<Real> onset{this, {.name = "onset", .unit = "m", .range = positive, .doc = "Opening u_e at which damage starts", .one_of = "onset"}};
   Param<Real> onset_ratio{this, {.name = "onset-ratio", .range = {0, 1, true, true}, .doc = "u_e / u_p", .one_of = "onset"}};
@@ -169,9 +63,14 @@ class CohesiveContact final
   Keeps<Real> area{this, {"area", On::bonds, "m2", "Area S that the contact stands for"}};
   Keeps<Vec3> arm1{this, {"arm-1", On::bonds, "m", "Contact point in the first element's body"}};
   Keeps<Vec3> arm2{this, {"arm-2", On::bonds, "m", "Contact point in the second element's body"}};
+  Keeps<Vec3> normal1{this, {"normal-1", On::bonds, "1", "Normal of the contact in the first element's body"}};
+  Keeps<Vec3> normal2{this, {"normal-2", On::bonds, "1", "Normal of the contact in the second element's body"}};
   Keeps<Real> largest_opening{this, {"largest-opening", On::bonds, "m", "Largest opening so far"}};
   Keeps<Real> largest_sliding{this, {"largest-sliding", On::bonds, "m", "Largest sliding so far"}};
-  Keeps<Real> let_go{this, {"let-go", On::bonds, "J", "Recoverable energy that was lost when the other mode failed"}};
+  Keeps<Real> soundness{this, {"soundness", On::bonds, "1", "Smallest share of the stiffness so far, 1 - damage"}};
+  Keeps<Real> mix{this, {"mode-mix", On::bonds, "1", "Share of sliding in the energy of the last opening"}};
+  Keeps<Real> parted{this, {"parted", On::bonds, "1", "1 when the faces have slid past one another"}};
+  Keeps<Real> let_go{this, {"let-go", On::bonds, "J", "Energy lost that no largest opening tells: to the other mode's failure, by coupled modes, by parting"}};
   Writes<Real> damage{this, field::damage};
   Writes<Real> opening{this, opening_field};
   Writes<Real> sliding{this, sliding_field};
@@ -179,25 +78,26 @@ class CohesiveContact final
   void check(Complaints& complaints) const override {
     if (*area_rule == "normalised" && !interface_area.given())
       complaints.error(area_rule.at(), "'area' normalised needs 'interface-area', the area that all contacts together stand for");
-    if (!strength.given() || !energy_.given()) return;
-    const CohesiveLaws<Real> all = laws();
-    for (const Softening<Real>& mode : {all.normal, all.shear})
-      if (!is_softening(mode)) {
-        const ParamBase& cause = onset.given() ? static_cast<const ParamBase&>(onset) : stiffness;
-        complaints.error(cause.at(), fmt::format("the onset u_e = {:.4g} m must be below u_p = 2 G / sigma = {:.4g} m: give a larger "
-                                                 "'stiffness' or 'energy', or a smaller 'onset'",
-                                                 mode.onset, mode.open));
-        return;
-      }
+    check_normal(complaints);
+    if (coupled() && *modes != "both") complaints.error(coupling.at(), "'coupling' joins opening and sliding: it needs modes=\"both\"");
+    if (exponent.given() != (*coupling == "benzeggagh-kenane"))
+      complaints.error(exponent.given() ? exponent.at() : coupling.at(), "'exponent' stands with coupling=\"benzeggagh-kenane\", and only there");
+    else if (strength.given() && energy_.given() && onset.given() + onset_ratio.given() + stiffness.given() == 1)
+      check_softening(complaints);
   }
 
   void choose() override {
-    const bool slides = *modes != "normal";
+    const bool slides = *modes != "normal", opens = *modes != "shear";
     for (FieldUse* use : {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&torque), static_cast<FieldUse*>(&arm1),
-                          static_cast<FieldUse*>(&arm2), static_cast<FieldUse*>(&largest_sliding), static_cast<FieldUse*>(&sliding)})
-      use->want(slides);
-    largest_opening.want(*modes != "shear");
-    let_go.want(*modes == "both");
+                          static_cast<FieldUse*>(&arm2), static_cast<FieldUse*>(&sliding)})
+      use->want(slides || carried());
+    for (FieldUse* use : {static_cast<FieldUse*>(&normal1), static_cast<FieldUse*>(&normal2), static_cast<FieldUse*>(&parted)}) use->want(carried());
+    length.want(!carried());
+    largest_opening.want(opens && !coupled());
+    largest_sliding.want(slides && !coupled());
+    soundness.want(coupled());
+    mix.want(coupled());
+    let_go.want(*modes == "both" || carried());
   }
 
   bool accepts(const Domain&, Index i, Index j) const override {
@@ -208,7 +108,7 @@ class CohesiveContact final
 
   bool acts_when_broken() const override { return true; }
 
-  void connect(Domain&, BondTable& table) override {
+  void connect(Domain& domain, BondTable& table) override {
     Real sum = 0;
     for (Index row = 0; row < table.size(); ++row) {
       const Index i = table.first()[row];
@@ -218,9 +118,10 @@ class CohesiveContact final
         refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a contact between them has no normal; move one "
                                  "of them or leave it out of the sets",
                                  i, j, *name));
-      length[row] = apart.norm();
+      if (length) length[row] = apart.norm();
       area[row] = *area_radius == "mean" ? contact_area(radius[i], radius[j]) : contact_area_on_large(std::min(radius[i], radius[j]));
       sum += area[row];
+      if (soundness) soundness[row] = 1;
       if (!arm1) continue;
       const ContactArms<Real> arms = contact_arms(apart, radius[i], radius[j], orientation[i], orientation[j]);
       arm1.set(row, arms.arm1);
@@ -229,76 +130,142 @@ class CohesiveContact final
     literal_area_ = sum;
     if (*area_rule == "normalised")
       for (Index row = 0; row < table.size(); ++row) area[row] *= *interface_area / sum;
+    if (carried()) set_normals(domain, table);
   }
 
   std::string remark() const override {
-    if (!interface_area.given()) return fmt::format("contacts of area {:.6g} m2 in all (pi R^2 each)", literal_area_);
-    return fmt::format("contacts of area {:.6g} m2 in all (pi R^2 each), {:.4g} of the interface; {}", literal_area_,
-                       literal_area_ / *interface_area, *area_rule == "literal" ? "taken as it is" : "scaled to the interface");
+    const std::string all = fmt::format("contacts of area {:.6g} m2 in all (pi R^2 each)", literal_area_);
+    if (!interface_area.given()) return all + about_normals_;
+    return fmt::format("{}, {:.4g} of the interface; {}{}", all, literal_area_ / *interface_area,
+                       *area_rule == "literal" ? "taken as it is" : "scaled to the interface", about_normals_);
   }
 
   Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
-    const One one{row, nullptr};
-    const CohesiveColumns all = columns();
-    const Index i = table.first()[row];
-    const Index j = table.second()[row];
-    const Vec3 apart = position[j] - position[i];
-    if (*modes == "normal") return cohesive_stiffness(all.laws.normal, all.rest(one), apart, 0, CohesiveSlope::sound);
-    const ContactArms<Real> arms{arm1[row], arm2[row]};
-    const Openings<Real> none{0, 0};
-    if (*modes == "shear")
-      return cohesive_stiffness<CohesiveModes::shear>(all.laws, all.rest(one), arms, apart, orientation[i], orientation[j], none, CohesiveSlope::sound);
-    return cohesive_stiffness<CohesiveModes::both>(all.laws, all.rest(one), arms, apart, orientation[i], orientation[j], none, CohesiveSlope::sound);
+    const Index i = table.first()[row], j = table.second()[row];
+    TurningEnds<Real> ends;
+    ends.apart = position[j] - position[i];
+    if (orientation) {
+      ends.q1 = orientation[i];
+      ends.q2 = orientation[j];
+    }
+    return std::visit([&](const auto& value) { return value.sound(One{row, nullptr}, ends); }, law());
   }
 
  protected:
-  AnyLaw law() const override {
-    if (*modes == "normal") return CohesiveOpening{columns()};
-    if (*modes == "shear") return CohesiveSliding<CohesiveModes::shear>{columns()};
-    return CohesiveSliding<CohesiveModes::both>{columns()};
-  }
+  AnyLaw law() const override { return carried() ? law_of<true>() : law_of<false>(); }
 
   void note_changes(BondTable& table, std::span<const Index> flagged, std::vector<BondEvent>& events) override {
-    const CohesiveLaws<Real> all = laws();
-    for (const Index c : flagged) {
-      const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
-      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-        const bool opened = largest_opening && largest_opening[b] >= all.normal.open;
-        const bool slid = largest_sliding && largest_sliding[b] >= all.shear.open;
-        const bool softens = (largest_opening && largest_opening[b] > all.normal.onset) || (largest_sliding && largest_sliding[b] > all.shear.onset);
-        State& state = table.state()[b];
-        if ((opened || slid) && state != State::broken) {
-          state = State::broken;
-          events.push_back({b, opened ? "opened" : "slid", dissipated_by(b)});
-        } else if (softens && state == State::intact) {
-          state = State::softening;
-        }
-      }
-    }
+    std::visit(
+        [&](const auto& value) {
+          for (const Index c : flagged) {
+            const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
+            for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+              const One one{b, nullptr};
+              State& state = table.state()[b];
+              if (state != State::broken && value.has_failed(one)) {
+                state = State::broken;
+                events.push_back({b, value.has_slid(one) ? "slid" : "opened", value.dissipated(one)});
+              } else if (state == State::intact && value.softens(one)) {
+                state = State::softening;
+              }
+            }
+          }
+        },
+        law());
   }
 
  private:
   static Dimension metre() { return find_unit("m")->dimension; }
 
-  Real dissipated_by(Index row) const {
-    return std::visit([&](const auto& value) -> Real { return value.dissipated(One{row, nullptr}); }, law());
+  bool carried() const { return *normal != "pair"; }
+  bool coupled() const { return *coupling != "none"; }
+
+  void check_normal(Complaints& complaints) const {
+    const auto belongs = [&](const ParamBase& param, const char* which) {
+      if (param.given() && *normal != which) complaints.error(param.at(), fmt::format("'{}' is for normal=\"{}\", and this is \"{}\"", param.info().name, which, *normal));
+    };
+    belongs(plane_normal, "plane");
+    belongs(axis_point, "axis");
+    belongs(axis_direction, "axis");
+    for (const Param<Vec3>* direction : {&plane_normal, &axis_direction})
+      if (direction->given() && !(direction->value().norm() > 0)) complaints.error(direction->at(), fmt::format("'{}' must have a direction", direction->info().name));
+    if (axis_point.given() != axis_direction.given())
+      complaints.error((axis_point.given() ? axis_point : axis_direction).at(), "'axis-point' and 'axis-direction' stand together, or neither does");
   }
 
-  CohesiveLaws<Real> laws() const {
-    const auto mode = [&](Real sigma, Real G) {
-      if (onset.given()) return softening_by_onset(sigma, G, *onset);
-      if (onset_ratio.given()) return softening_by_ratio(sigma, G, *onset_ratio);
-      return softening_by_stiffness(sigma, G, *stiffness);
+  void check_softening(Complaints& complaints) const {
+    const ParamBase& cause = onset.given() ? static_cast<const ParamBase&>(onset) : stiffness;
+    for (const Softening<Real>& mode : {opening_law(), sliding_law()})
+      if (!is_softening(mode)) {
+        complaints.error(cause.at(), fmt::format("the onset u_e = {:.4g} m must be below u_p = 2 G / sigma = {:.4g} m: give a larger "
+                                                 "'stiffness' or 'energy', or a smaller 'onset'",
+                                                 mode.onset, mode.open));
+        return;
+      }
+    if (!coupled()) return;
+    const MixedMode mixed = mixed_law();
+    for (int k = 0; k <= 100; ++k)
+      if (!is_softening(mixed.at_mix(Real(k) / 100))) {
+        complaints.error(coupling.at(), fmt::format("at a mode mix of {:.2f} the energy of this coupling is less than what is stored when damage starts: give a "
+                                                    "larger 'stiffness' or a smaller 'onset' or 'exponent'",
+                                                    Real(k) / 100));
+        return;
+      }
+  }
+
+  void set_normals(const Domain& domain, const BondTable& table) {
+    std::vector<Meeting> meetings;
+    const auto is_in = [&](std::size_t which) {
+      std::vector<char> member(static_cast<std::size_t>(domain.size()), 0);
+      for (const Index row : domain.set((*between)[which])) member[static_cast<std::size_t>(row)] = 1;
+      return member;
     };
-    return {mode(*strength, *energy_), mode(shear_strength.given() ? *shear_strength : *strength, shear_energy.given() ? *shear_energy : *energy_)};
+    const std::vector<char> one = is_in(0), other = is_in(1);
+    for (Index row = 0; row < table.size(); ++row) {
+      const Index first = table.first()[row], second = table.second()[row];
+      const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+      meetings.push_back({first, second, position[first] + rotate(orientation[first], arm1[row]), position[second] - position[first],
+                          (one[i] && other[j]) - (one[j] && other[i])});
+    }
+    InterfaceNormals finder(std::move(meetings), normal.at());
+    const std::vector<Vec3> normals = *normal == "plane"   ? finder.of_plane(plane_normal.given() ? std::optional<Vec3>(*plane_normal) : std::nullopt)
+                                      : axis_point.given() ? finder.of_axis({*axis_point, axis_direction->normalized()})
+                                                           : finder.of_fibres(domain.set((*between)[0]), position.view(), radius.view());
+    for (Index row = 0; row < table.size(); ++row) {
+      const auto carried = carried_normals(normals[static_cast<std::size_t>(row)], orientation[table.first()[row]], orientation[table.second()[row]]);
+      normal1.set(row, carried.normal1);
+      normal2.set(row, carried.normal2);
+    }
+    about_normals_ = finder.remark();
+  }
+
+  template <bool carried>
+  AnyLaw law_of() const {
+    if (coupled()) return CohesiveFaces<carried, MixedMode>{columns(), mixed_law()};
+    if (*modes == "both") return CohesiveFaces<carried, Both>{columns(), {opening_law(), sliding_law()}};
+    if (*modes == "shear") return CohesiveFaces<carried, Sliding>{columns(), {opening_law(), sliding_law()}};
+    if constexpr (carried) return CohesiveFaces<carried, Opening>{columns(), {opening_law(), sliding_law()}};
+    return CohesiveOpening{columns(), opening_law()};
+  }
+
+  Softening<Real> mode(Real sigma, Real G) const {
+    if (onset.given()) return softening_by_onset(sigma, G, *onset);
+    if (onset_ratio.given()) return softening_by_ratio(sigma, G, *onset_ratio);
+    return softening_by_stiffness(sigma, G, *stiffness);
+  }
+  Softening<Real> opening_law() const { return mode(*strength, *energy_); }
+  Softening<Real> sliding_law() const { return mode(shear_strength.given() ? *shear_strength : *strength, shear_energy.given() ? *shear_energy : *energy_); }
+  MixedMode mixed_law() const {
+    return {opening_law(), sliding_law(), {*coupling == "linear", UnitPower(exponent.given() ? *exponent : 1)}};
   }
 
   CohesiveColumns columns() const {
-    return {length.view(), area.view(), arm1.view(), arm2.view(), largest_opening.view(), largest_sliding.view(), let_go.view(),
-            damage.view(), opening.view(), sliding.view(), laws()};
+    return {length.view(), area.view(), arm1.view(), arm2.view(), normal1.view(), normal2.view(), largest_opening.view(), largest_sliding.view(),
+            soundness.view(), mix.view(), parted.view(), let_go.view(), damage.view(), opening.view(), sliding.view()};
   }
 
   Real literal_area_ = 0;
+  std::string about_normals_;
 };
 
 }  // namespace beadwork

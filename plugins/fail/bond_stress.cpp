@@ -1,5 +1,3 @@
-#include "core/base/failure.hpp"
-#include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/beam.hpp"
 #include "core/plugin/kinds.hpp"
@@ -28,19 +26,8 @@ class BondStress final : public Failure {
     chosen_ = *measure == "axial" ? 0 : *measure == "axial-bending" ? 1 : 2;
   }
 
-  std::vector<Index> judge(const Domain&, const BondTable& table) override {
-    std::vector<std::vector<Index>> fallen(table.chunks().size());
-    each_shared(static_cast<Index>(table.chunks().size()), [&](Index c) {
-      const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
-      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-        const Real use = stress(b) / *strength;
-        if (utilisation) utilisation[b] = use;
-        if (use >= 1) fallen[static_cast<std::size_t>(c)].push_back(b);
-      }
-    });
-    std::vector<Index> all;
-    for (const auto& part : fallen) all.insert(all.end(), part.begin(), part.end());
-    return all;
+  Verdict judge(const Domain&, const BondTable& table) override {
+    return judge_each(table, [&](Index b) { return stress(b) / *strength; });
   }
 
   std::string mode() const override { return *measure; }

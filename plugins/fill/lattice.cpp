@@ -20,14 +20,16 @@ class Lattice final : public ElementMaker {
       complaints.error(count.at(), fmt::format("'count' asks for {} elements, more than rows can be numbered", count->prod()));
   }
 
-  void fill(Domain& domain, const FillJob&) override {
+  void fill(Domain& domain, const FillJob& job) override {
     const auto number = static_cast<std::size_t>(count->prod());
     require_room(domain, number);
     std::vector<Vec3> centres;
     centres.reserve(number);
     for (Real i = 0; i < count->x(); ++i)
-      for (Real j = 0; j < count->y(); ++j)
+      for (Real j = 0; j < count->y(); ++j) {
+        if (j == 0 || count->z() > 1000) job.pause();
         for (Real k = 0; k < count->z(); ++k) centres.push_back(*from + 2 * *radius * Vec3(i, j, k));
+      }
     add_spheres(domain, centres, std::vector<Real>(centres.size(), *radius));
   }
 };

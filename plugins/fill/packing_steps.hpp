@@ -2,13 +2,12 @@
 // What the three steps of filling share: the packing that they hand on, and the elements made of it.
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <memory>
 
 #include "core/base/failure.hpp"
 #include "core/packing/packing.hpp"
-#include "core/packing/report.hpp"
+#include "plugins/fill/packing_report.hpp"
 #include "plugins/fill/spheres.hpp"
 
 namespace beadwork {
@@ -19,21 +18,6 @@ struct PackingInProgress {
   Index first_row;  ///< its elements stand from here on
   Index rows;       ///< so many: the set may hold others, made before
 };
-
-inline std::string packing_json(const std::string& set, const std::string& step, const packing::PackingReport& r) {
-  return fmt::format(
-      R"({{"set":"{}","step":"{}","elements":{},"seed":{},"seconds":{:.3g},)"
-      R"("coordination":{:.5g},"coordination_without_rattlers":{:.5g},"coordination_bulk":{:.5g},)"
-      R"("coordination_touching":{:.5g},"coordination_touching_without_rattlers":{:.5g},"gap_tolerance":{},)"
-      R"("rattlers":{:.4g},"max_overlap":{:.4g},"mean_overlap":{:.4g},)"
-      R"("fabric_eigenvalues":[{:.5g}],"fabric_eigenvalues_bulk":[{:.5g}],"density":{:.5g},"density_bulk":{:.5g},)"
-      R"("mean_radius":{:.8g},"min_radius":{:.8g},"max_radius":{:.8g},"kolmogorov_smirnov_distance":{:.4g},"bond_order_q6":{:.4g},)"
-      R"("crystalline_share":{:.4g},"radius_over_mean":{{"edges":[{:.6g}],"counts":[{}],"unit":"1"}}}})",
-      set, step, r.count, r.seed, r.seconds, r.near.all, r.near.without_rattlers, r.near.bulk, r.touching.all,
-      r.touching.without_rattlers, r.tolerance, r.rattlers, r.max_overlap, r.mean_overlap, fmt::join(r.fabric, ","),
-      fmt::join(r.fabric_bulk, ","), r.density, r.density_bulk, r.mean_radius, r.min_radius, r.max_radius, r.kolmogorov, r.bond_order,
-      r.crystalline_share, fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
-}
 
 /// Filling goes wrong in two ways, both the deck's: a request that makes no sense, and one that cannot be met.
 template <class Step>
@@ -69,9 +53,8 @@ class PackingStep : public SphereFiller {
     for (std::size_t w = before; w < progress.packing.warnings.size(); ++w) job.warn(progress.packing.warnings[w]);
     place(domain, progress);
     const auto report = packing::report(progress.packing);
-    job.report(packing_json(*set, tag(), report));
-    job.say(fmt::format("{}: {} elements, Z {:.3f}, largest overlap {:.2g}, density {:.4f}, {:.1f} s", tag(), report.count, report.near.all,
-                        report.max_overlap, report.density, report.seconds));
+    job.report(packing_json(*set, tag(), report, PackingSource::filling));
+    job.say(fmt::format("{}: {} elements, {}, {:.1f} s", tag(), report.count, packing_words(report), report.seconds));
   }
 
  protected:

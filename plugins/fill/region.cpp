@@ -21,11 +21,12 @@ class Region final : public Filler {
 
   bool after_filling() const override { return true; }
 
-  void fill(Domain& domain, const FillJob&) override {
+  void fill(Domain& domain, const FillJob& job) override {
     const auto position = domain.elements().column("position").view<Vec3>();
     const auto radius = domain.elements().column("radius").view<Real>();
     Set members;
     const auto look = [&](Index row) {
+      if (row % 4096 == 0) job.pause();
       const Vec3 x = position[row];
       const Real values[] = {x.x(), x.y(), x.z(), radius[row]};
       if ((*where)(values) == 1) members.push_back(row);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/base/failure.hpp"
+#include "core/base/memory.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/sphere.hpp"
 #include "core/plugin/kinds.hpp"
@@ -19,12 +20,14 @@ class SphereFiller : public Filler {
   Writes<Real> inertia{this, field::inertia};
 
  protected:
-  /// Throws DeckFailure if so many more elements cannot be numbered.
+  /// Throws DeckFailure if so many more elements cannot be numbered, or held by this machine.
   void require_room(const Domain& domain, std::size_t count) const {
     const auto room = static_cast<std::size_t>(most_elements - domain.size());
     if (count > room)
       refuse(at(), fmt::format("{} elements more than the {} that are there cannot be numbered: a scene holds {} at most", count, domain.size(),
                                most_elements));
+    constexpr Real least_bytes = 200;  // place, radius, mass, velocity, force of an element, and a bond or two
+    if (const std::string why = why_no_memory(static_cast<Real>(count), "elements", least_bytes); !why.empty()) refuse(at(), why);
   }
 
   /// New rows behind all others, members of the set; what stands in them is still to be given. Returns the first.

@@ -15,11 +15,15 @@ class Pull final : public Load {
   Param<std::string> grip{this, {.name = "grip", .doc = "each element alike, or the mean over the set", .fallback = "each", .choices = {"each", "mean"}}};
   Param<Real> velocity{this, {.name = "velocity", .unit = "m/s", .doc = "Velocity that is reached", .one_of = "motion"}};
   Param<Real> rise{this, {.name = "rise", .unit = "s", .range = not_negative, .doc = "Time over which the velocity sets in, smoothly (no jump of acceleration)", .fallback = "0 s", .instead = "table"}};
-  Param<std::string> table{this, {.name = "table", .doc = "Instead of 'velocity': times and velocities with units, joined by commas: \"0 s 0 m/s, 1 ms 2 m/s\"; straight lines between them", .one_of = "motion"}};
+  Param<QuantityRows> table{this, {.name = "table", .doc = "Instead of 'velocity': times and velocities with units, joined by commas: \"0 s 0 m/s, 1 ms 2 m/s\"; straight lines between them", .columns = {"s", "m/s"}, .one_of = "motion"}};
 
   void check(Complaints& complaints) const override {
-    if (table.in_deck()) read_table(&complaints);
     if (table.in_deck() && rise.in_deck()) complaints.error(rise.at(), "'rise' belongs to 'velocity', a table has its own course");
+    if (!table.given()) return;
+    if (table->front()[0] != 0) complaints.error(table.at(), "the first row of 'table' is that of the start of the stage, 0 s");
+    for (std::size_t k = 1; k < table->size(); ++k)
+      if ((*table)[k][0] <= (*table)[k - 1][0])
+        complaints.error(table.at(), fmt::format("the times of 'table' must increase, got {} s after {} s", format_number((*table)[k][0]), format_number((*table)[k - 1][0])));
   }
 
   std::vector<Constraint> constraints() const override {
@@ -29,38 +33,25 @@ class Pull final : public Load {
     c.axis = (*axis)[0] - 'x';
     c.grip = *grip == "each" ? Grip::each : Grip::mean;
     c.driven = true;
-    if (table.in_deck())
-      c.motion = [course = VelocityTable(read_table(nullptr))](Real t) { return course.at(t); };
+    if (table.given())
+      follow(c, course());
     else
-      c.motion = [ramp = SmoothRamp{*velocity, *rise}](Real t) { return ramp.at(t); };
+      follow(c, SmoothRamp{*velocity, *rise});
     return {c};
   }
 
  private:
-  // "0 s 0 m/s, 1 ms 2 m/s"; a row that cannot be read is complained of, and left out.
-  std::vector<VelocityTable::Row> read_table(Complaints* complaints) const {
-    std::vector<VelocityTable::Row> rows;
-    for (const std::string& row : split(*table, ',')) {
-      const auto words = split_words(row);
-      const auto time = words.size() == 4 ? value(words[0], words[1], "s") : std::nullopt;
-      const auto speed = words.size() == 4 ? value(words[2], words[3], "m/s") : std::nullopt;
-      if (time && speed && (rows.empty() || *time > rows.back().time)) {
-        rows.push_back({*time, *speed});
-      } else if (complaints) {
-        complaints->error(table.at(), fmt::format("'table' wants rows such as \"1 ms 2 m/s\" in increasing time, got \"{}\"", trim(row)));
-      }
-    }
-    if (complaints && !rows.empty() && rows.front().time != 0)
-      complaints->error(table.at(), "the first row of 'table' is that of the start of the stage, 0 s");
-    if (rows.empty()) rows.push_back({0, 0});
-    return rows;
+  template <class Course>
+  static void follow(Constraint& c, const Course& course) {
+    c.reach = course.reach();
+    c.motion = [course](Real t) { return course.at(t); };
   }
 
-  static std::optional<Real> value(const std::string& number, const std::string& unit, const char* wanted) {
-    const auto plain = parse_number(number);
-    const auto found = find_unit(unit);
-    if (!plain || !found || !(found->dimension == find_unit(wanted)->dimension)) return std::nullopt;
-    return found->to_si(*plain);
+  VelocityTable course() const {
+    std::vector<VelocityTable::Row> rows;
+    for (const auto& row : *table)  // it is asked for while a deck with mistakes is checked, too
+      if (rows.empty() || row[0] > rows.back().time) rows.push_back({row[0], row[1]});
+    return VelocityTable(std::move(rows));
   }
 };
 

@@ -10,50 +10,13 @@
 // A pair of elements then swings with the damping ratio zeta along the bond, across it, in bending and in twist. Velocities are
 // those of half a step ago, so v.n and s are taken with the chord of half a step ago: a body that spins is not held back.
 
-#include <algorithm>
-
 #include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
-#include "core/mechanics/stiffness.hpp"
+#include "core/mechanics/dashpot.hpp"
 #include "core/plugin/bond_loop.hpp"
+#include "plugins/move/motion.hpp"
 
 namespace beadwork {
-
-/// What a bond's dashpots are worth.
-struct DashpotRates {
-  Real along = 0, across = 0;      ///< c_n, c_t [N s/m]
-  Real bending = 0, twisting = 0;  ///< c_b, c_w [N m s]
-};
-
-/// From the stiffness of a bond (x1, theta1, x2, theta2) with d = x2 - x1, and 1/m1 + 1/m2 [1/kg] and 1/I1 + 1/I2 [1/(kg m^2)],
-/// the latter 0 where nothing turns.
-inline DashpotRates dashpot_rates(const Matrix12& k, const Vec3& d, Real zeta, Real lightness, Real looseness) {
-  const Vec3 n = d.normalized();
-  const Mat3 moved = k.block<3, 3>(6, 6);
-  const Mat3 turned = 0.25 * (k.block<3, 3>(3, 3) - k.block<3, 3>(3, 9) - k.block<3, 3>(9, 3) + k.block<3, 3>(9, 9));
-  const Real along = n.dot(moved * n), twist = n.dot(turned * n);
-  const auto rate = [&](Real stiffness, Real mobility) { return 2 * zeta * std::sqrt(std::max(Real(0), stiffness) / mobility); };
-  DashpotRates c{rate(along, lightness), 0, 0, 0};
-  if (looseness == 0) return c;
-  c.across = rate(0.5 * (moved.trace() - along), lightness + 0.25 * d.squaredNorm() * looseness);  // slip moves and turns both ends
-  c.bending = rate(0.5 * (turned.trace() - twist), looseness);
-  c.twisting = rate(twist, looseness);
-  return c;
-}
-
-/// The same as a matrix: loads = -C rates, rates (v1, w1, v2, w2).
-inline Matrix12 dashpot_matrix(const DashpotRates& c, const Vec3& d) {
-  const Vec3 n = d.normalized();
-  Eigen::Matrix<Real, 3, 12> parting = Eigen::Matrix<Real, 3, 12>::Zero(), turning = parting;
-  parting.block<3, 3>(0, 0) = -Mat3::Identity();
-  parting.block<3, 3>(0, 6) = Mat3::Identity();
-  parting.block<3, 3>(0, 3) = parting.block<3, 3>(0, 9) = 0.5 * stiffness::skew(d);  // -(w x d)/2 = (d x w)/2
-  turning.block<3, 3>(0, 3) = -Mat3::Identity();
-  turning.block<3, 3>(0, 9) = Mat3::Identity();
-  const Mat3 weight = c.along * n * n.transpose() + c.across * stiffness::across(n);
-  const Mat3 twist = c.twisting * n * n.transpose() + c.bending * stiffness::across(n);
-  return parting.transpose() * weight * parting + turning.transpose() * twist * turning;
-}
 
 /// `turning`: elements have spins; otherwise only the central dashpot acts, which alone needs no torques.
 template <bool turning>
@@ -63,8 +26,9 @@ struct DashpotLaw {
   static constexpr bool turns = turning;
   static constexpr bool moves = true;
 
-  template <Pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  template <Pass, class At, class Both>
+  [[gnu::always_inline]] auto act(const At& at, const Both& ends) const {
+    using T = typename At::Number;
     const Vec<T>& d = ends.apart;
     const Vec<T> v = ends.v2 - ends.v1;
     const Vec<T> then = d - T(half_step) * v;
@@ -77,9 +41,9 @@ struct DashpotLaw {
       const Vec<T> turn = ends.w2 - ends.w1;
       const T b = at(bending);
       const Vec<T> couple = b * turn + ((at(twisting) - b) * dot(turn, d) / dot(d, d)) * d;
-      return {copy(force), half + couple, half - couple};
+      return Wrench<T>{copy(force), half + couple, half - couple};
     } else {
-      return {-central, zero<Vec<T>>(), zero<Vec<T>>()};
+      return Wrench<T>{-central, zero<Vec<T>>(), zero<Vec<T>>()};
     }
   }
 };
@@ -91,6 +55,7 @@ class Dashpots {
   /// Finds the rates at the present state, or those that were kept where the run was resumed.
   void prepare(Workings& w, Real zeta, const View<const Real>& mass, const View<const Real>& inertia, bool resumed) {
     families_.clear();
+    pushed_.clear();
     for (const auto& [law, table] : w.laws()) {
       if (law->acts_when_broken()) continue;
       for (const Field* field : {&along, &across, &bending, &twisting}) table->rows().add(*field).keep();
@@ -140,6 +105,16 @@ class Dashpots {
       if (spin) power += turned_[static_cast<std::size_t>(i)].dot(spin[i]);
       return power;
     });
+  }
+
+  /// By how much the energy that is booked for them lags behind what they took: dt^2/4 of their force times the acceleration [J].
+  Real lag(const Motion& all, Real dt) const {
+    if (pushed_.empty()) return 0;
+    return dt * dt / 4 * fixed_sum(all.count, [&](Index i) {
+             Real sum = pushed_[static_cast<std::size_t>(i)].dot(all.force[i]) / all.mass[i];
+             if (all.spin) sum += turned_[static_cast<std::size_t>(i)].dot(all.torque[i]) / all.inertia[i];
+             return sum;
+           });
   }
 
  private:

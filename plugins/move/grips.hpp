@@ -2,6 +2,10 @@
 // Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), each element by itself or their mean.
 // Axes 0..2 are places, 3..5 are turns: those are held still, which spins and torques alone see to.
 //
+// Work of a step: the inertia of what is gripped takes just the change of its kinetic energy, which prescribed velocities tell whatever
+// kinks they have. The rest of the reaction does that of the trapezoid, between what it is after the bonds of the last step have broken
+// and what it is before those of this step do: of second order in the step.   docs/theory/verlet.md
+//
 // A mean leaves out debris. A loose element, which no bond holds, would take its share of the force and fly away, and the
 // mean would follow it instead of the specimen. What breaks loose later is left out from then on.
 
@@ -36,9 +40,10 @@ class Grips {
       if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, when);
       sets_.push_back(c.grip == Grip::mean ? without_debris(all, body) : all);
       if (sets_.back().size() < all.size())
-        w.say(fmt::format("{} of the {} elements of '{}' hang loose (bonded to nothing, or to little debris) and are left out of its mean",
-                          all.size() - sets_.back().size(), all.size(), c.set));
+        w.say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong to a small fragment, and are left out of its mean",
+                                                   all.size() - sets_.back().size(), all.size(), c.set));
       means_.push_back(0);
+      weights_.push_back(c.axis < 3 ? weight(c.grip, sets_.back(), w.domain().elements().column("mass").view<Real>()) : 0);
       for (const Index row : sets_.back()) {
         const auto bit = static_cast<unsigned char>(1 << c.axis);
         held_[static_cast<std::size_t>(row)] |= bit;
@@ -80,7 +85,32 @@ class Grips {
     return any != 0;
   }
   /// Whether the motion of this very element is prescribed, not only that of a mean.
-  bool drives(Index row, int axis) const { return driven_[static_cast<std::size_t>(row)] >> axis & 1; }
+  bool drives(Index row, int axis) const { return driven(row) >> axis & 1; }
+  unsigned driven(Index row) const { return driven_[static_cast<std::size_t>(row)]; }
+
+  /// Once bonds have broken at the end of a step: the reactions for the half step to come are those of the forces that are left. The
+  /// forces themselves stay as they are, for places and rates that are prescribed follow from no force.
+  void bonds_broke(Workings& w, const Gripped& places, const Gripped& turns, Real beta) const {
+    each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
+      const Real lacking = missing(c, sets_[k], of, c.at(w.moment().time).acceleration / beta);
+      c.reaction += c.grip == Grip::each ? lacking : lacking * static_cast<Real>(sets_[k].size());
+    });
+  }
+
+  /// Members that these grips, made anew after breaks, have let go still carry their share of the reaction in the half step to come.
+  /// Rates are those of the full step.
+  void take_over(Workings& w, const Grips& before, const Gripped& places, const Gripped& turns) const {
+    const Real dt = w.moment().time_step;
+    each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
+      const Set& all = before.sets_[k];
+      if (c.axis >= 3 || all.size() == sets_[k].size()) return;
+      const Real share = c.reaction / static_cast<Real>(all.size());
+      for (const Index row : all)
+        if (!(held(row) >> c.axis & 1))
+          c.work += 0.5 * share * dt * (of.rate.at(row, c.axis) + 0.5 * dt * of.load.at(row, c.axis) / of.inertia[row]);
+      c.reaction = share * static_cast<Real>(sets_[k].size());
+    });
+  }
 
   /// Notes where what is gripped stands; to be called before places advance.
   void before_advance(Workings& w, const View<Vec3>& position) {
@@ -98,13 +128,14 @@ class Grips {
   }
 
   /// Puts what is gripped where it has to be at the end of the step, and does the work of the old reaction's half.
-  void after_advance(Workings& w, const View<Vec3>& position, const View<const Real>& mass) {
+  void after_advance(Workings& w, const View<Vec3>& position, const View<const Real>& mass, Real beta) {
     const Moment& now = w.moment();
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       Constraint& c = w.constraints()[k];
       if (c.axis >= 3) continue;
-      const Real moved = c.at(now.time + now.time_step).displacement - c.at(now.time).displacement;
-      c.work += 0.5 * c.reaction * moved;
+      const PrescribedMotion here = c.at(now.time);
+      const Real moved = c.at(now.time + now.time_step).displacement - here.displacement;
+      c.work += 0.5 * (c.reaction - weights_[k] * here.acceleration / beta) * moved;
       if (c.grip == Grip::each) {
         for (std::size_t n = 0; n < sets_[k].size(); ++n) position.at(sets_[k][n], c.axis) = places_[k][n] + moved;
         continue;
@@ -118,30 +149,24 @@ class Grips {
   /// reaction, and does its half of the work of the step that has just been made.
   void react(Workings& w, const Gripped& places, const Gripped& turns, Real beta) {
     const Moment& now = w.moment();
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      Constraint& c = w.constraints()[k];
-      const Gripped& of = c.axis < 3 ? places : turns;
-      if (!of.load) continue;
+    each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
       const Set& set = sets_[k];
       const int axis = c.axis % 3;
-      const Real a = c.at(now.time).acceleration / beta;
-      Real sum = 0;
+      const PrescribedMotion here = c.at(now.time);
+      const Real a = here.acceleration / beta;
+      const Real lacking = missing(c, set, of, a);
       if (c.grip == Grip::each) {
-        for (const Index row : set) {
-          Real& f = of.load.at(row, axis);
-          sum += of.inertia[row] * a - f;
-          f = of.inertia[row] * a;
-        }
+        for (const Index row : set) of.load.at(row, axis) = of.inertia[row] * a;
+        c.reaction = lacking;
       } else {
-        const Real free = mean(set, [&](Index row) { return of.load.at(row, axis) / of.inertia[row]; });
-        const Real more = (a - free) / mean(set, [&](Index row) { return 1 / of.inertia[row]; });
-        for (const Index row : set) of.load.at(row, axis) += more;
-        sum = more * static_cast<Real>(set.size());
+        for (const Index row : set) of.load.at(row, axis) += lacking;
+        c.reaction = lacking * static_cast<Real>(set.size());
       }
-      c.reaction = sum;
-      if (now.step == now.stage_step) continue;
-      c.work += 0.5 * sum * (c.at(now.time).displacement - c.at(now.time - now.time_step).displacement);
-    }
+      if (now.step == now.stage_step) return;
+      const PrescribedMotion before = c.at(now.time - now.time_step);
+      c.work += 0.5 * (c.reaction - weights_[k] * a) * (here.displacement - before.displacement);
+      c.work += 0.5 * weights_[k] / beta * (here.velocity * here.velocity - before.velocity * before.velocity);
+    });
   }
 
   void after_correct(Workings& w, const Gripped& places, const Gripped& turns) {
@@ -154,6 +179,34 @@ class Grips {
   }
 
  private:
+  // f(number, constraint, rates and loads of its kind of axis) of each that holds something which moves.
+  template <class F>
+  void each_grip(Workings& w, const Gripped& places, const Gripped& turns, const F& f) const {
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      Constraint& c = w.constraints()[k];
+      const Gripped& of = c.axis < 3 ? places : turns;
+      if (of.load) f(k, c, of);
+    }
+  }
+
+  // What the loads lack of the acceleration `a`: in all where each element has it, for each element where the mean does.
+  static Real missing(const Constraint& c, const Set& set, const Gripped& of, Real a) {
+    const int axis = c.axis % 3;
+    if (c.grip == Grip::mean) {
+      const Real free = mean(set, [&](Index row) { return of.load.at(row, axis) / of.inertia[row]; });
+      return (a - free) / mean(set, [&](Index row) { return 1 / of.inertia[row]; });
+    }
+    Real sum = 0;
+    for (const Index row : set) sum += of.inertia[row] * a - of.load.at(row, axis);
+    return sum;
+  }
+
+  // What the motion of all is worth in kinetic energy: 1/2 of this times the square of the prescribed velocity.
+  static Real weight(Grip grip, const Set& set, const View<const Real>& mass) {
+    const auto count = static_cast<Real>(set.size());
+    return grip == Grip::each ? count * mean(set, [&](Index row) { return mass[row]; }) : count / mean(set, [&](Index row) { return 1 / mass[row]; });
+  }
+
   static void set_rate(const Constraint& c, const Set& set, Real v, const Gripped& of) {
     const int axis = c.axis % 3;
     if (c.grip == Grip::each) {
@@ -194,7 +247,7 @@ class Grips {
 
   std::vector<Set> sets_;
   std::vector<Index> rows_;
-  std::vector<Real> means_;
+  std::vector<Real> means_, weights_;
   std::vector<std::vector<Real>> places_;
   std::vector<unsigned char> held_, driven_;          // bit `axis`: prescribed there, of the element itself or of a mean; of itself
   std::set<std::pair<Index, Index>> bonds_of_means_;  // (family, id) of the bonds that hold members of a mean

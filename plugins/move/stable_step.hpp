@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <iterator>
 #include <limits>
 
+#include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/stability.hpp"
 #include "core/plugin/kinds.hpp"
@@ -19,7 +19,7 @@ struct StepLimit {
   std::string by = "no bond limits it";
 };
 
-/// `more(table, row, apart)` is added to the stiffness of each bond.
+/// `more(law, table, row, apart)` is added to the stiffness of each bond.
 template <class More>
 StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
   const Domain& domain = w.domain();
@@ -55,18 +55,10 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
     const auto& [law, table, chunk, begin] = part;
     for (Index b = chunk.begin; b < chunk.live_end; ++b) {
       const Index i = table->first()[b], j = table->second()[b];
-      network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*table, b, Vec3(position[j] - position[i])));
+      network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
     }
   };
-  std::vector<std::exception_ptr> failed(parts.size());  // nothing may be thrown across the end of a parallel region
-#pragma omp parallel for schedule(dynamic) if (parts.size() > 1)
-  for (std::size_t p = 0; p < parts.size(); ++p) try {
-      ask(parts[p]);
-    } catch (...) {
-      failed[p] = std::current_exception();
-    }
-  for (const std::exception_ptr& failure : failed)
-    if (failure) std::rethrow_exception(failure);
+  each_shared(parts.size(), [&](std::size_t p) { ask(parts[p]); });
   if (network.bonds() == 0) return {};
   const StableStep found = stable_step(network, mobility, 1);
   StepLimit limit{found.dt, ""};

@@ -10,6 +10,7 @@
 #include "plugins/move/dashpots.hpp"
 #include "plugins/move/grips.hpp"
 #include "plugins/move/local_damping.hpp"
+#include "plugins/move/shadow.hpp"
 #include "plugins/move/stability_watch.hpp"
 #include "plugins/move/stable_step.hpp"
 #include "plugins/move/verlet_rows.hpp"
@@ -37,7 +38,7 @@ class Verlet final : public Mover {
   Reads<Real> radius{this, field::radius};
   Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
   Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
-  Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided what hangs loose in a grip"}};
+  Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided which elements without bonds a grip leaves out"}};
   Keeps<Real> stable{this, {"stable-step", On::scene, "s", "Largest stable step when the stage began"}};
 
   void choose_rotations(bool wanted) override {
@@ -54,6 +55,7 @@ class Verlet final : public Mover {
 
   void prepare(Workings& w, bool resumed) override {
     behind_ = false;
+    laws_move_ = std::any_of(w.laws().begin(), w.laws().end(), [](const auto& acting) { return acting.first->moves(); });
     count_ = w.domain().size();
     position_ = w.domain().elements().column("position").view<Vec3>();
     if (!resumed) gripped[0] = static_cast<Real>(w.moment().stage_step);
@@ -79,33 +81,34 @@ class Verlet final : public Mover {
         w.warn(fmt::format("{}: 'time-step' is {:.4g} s, the largest stable one {:.4g} s; a run that gains energy by it is stopped",
                            fixed_step.at().where(), w.moment().time_step, largest));
       stable[0] = largest;
-      w.evaluate(false);
       grips_.seize(w, places(), turns(), *beta);
+      w.evaluate(false);
       damping_power[0] = damp(w);
-      damping_power[0] += dashpots_.power(velocity.view(), spin.view());
+      damping_power[0] += dashpots_.power(velocity.view(), spin.view()) + power_of_laws(w);
       grips_.react(w, places(), turns(), *beta);
     }
+    dt_ = w.moment().time_step;
   }
 
   bool in_single() const override { return *precision == "mixed"; }
 
   void step(Workings& w) override {
     Moment& now = w.moment();
-    grip_anew_after_breaks(w);
+    heed_breaks(w);
     grips_.before_advance(w, position_);
     if (*beta < 1) beta_damping_.remember(motion());
     advance_all(w);
-    grips_.after_advance(w, position_, mass.view());
+    grips_.after_advance(w, position_, mass.view(), *beta);
     now.time += now.time_step;
     ++now.step;
-    w.evaluate(true);
+    laws_move_ ? evaluate_foreseen(w) : w.evaluate(true);
     const Real taken_by_local = damp(w);
     grips_.react(w, places(), turns(), *beta);
     behind_ = true;
-    if (*beta < 1 || dashpots_.any() || now.step % 100 == 0) complete(w);
+    if (*beta < 1 || dashpots_.any() || laws_move_ || now.step % 100 == 0) complete(w);
     if (*beta < 1) damped[0] += beta_damping_.taken(motion(), grips_, *beta);
-    book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()));
-    if (now.step % 100 == 0) StabilityWatch(w, motion(), stable[0]).look();
+    book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()) + power_of_laws(w));
+    if (now.step % 100 == 0 && std::isfinite(stable[0])) StabilityWatch(w, motion(), stable[0]).look();  // something was bonded
   }
 
   void complete(Workings& w) override {
@@ -123,8 +126,10 @@ class Verlet final : public Mover {
                    return 0.5 * twice;
                  }) /
                  *beta);
-    if (*local_damping > 0 || *bond_damping > 0 || *beta < 1) sink.dissipated("damping", damped[0]);
+    if (*local_damping > 0 || *bond_damping > 0 || *beta < 1 || damped[0] != 0) sink.dissipated("damping", damped[0]);
   }
+  Real swing() const override { return shadow(motion(), grips_, dt_, *local_damping) - dashpots_.lag(motion(), dt_); }
+  std::string suspect() const override { return suspect_step(dt_ / stable[0]); }
 
  private:
   Motion motion() const {
@@ -135,34 +140,70 @@ class Verlet final : public Mover {
   Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }
 
   // Local damping makes a force that slows down larger by its share, that of dashpots too, and so the stiffness that limits the
-  // step. Dashpots see velocities of half a step ago, which limits it as a stiffness 2 C/dt would; dt falls towards the one that fits.
+  // step. Dashpots see velocities of half a step ago, which limits it as a stiffness 2 C/dt would, and laws foreseen ones, which limits
+  // it as 4 beta C/dt would; dt falls towards the one that fits.
   StepLimit largest_step(Workings& w) const {
     const auto limit = [&](Real dt) {
-      StepLimit found = step_limit(w, mass.view(), inertia.view(), [&](const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
-        return std::isfinite(dt) ? dashpots_.stiffening(table, row, apart, dt) : Matrix12::Zero();
+      StepLimit found = step_limit(w, mass.view(), inertia.view(), [&](const BondLaw& law, const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
+        if (!std::isfinite(dt)) return Matrix12::Zero();
+        const Matrix12 lagging = dashpots_.stiffening(table, row, apart, dt);
+        return law.moves() ? Matrix12(lagging + 4 * *beta / dt * law.damping(w.domain(), table, row)) : lagging;
       });
       found.time_step /= std::sqrt(1 + *local_damping);
       return found;
     };
     StepLimit found = limit(std::numeric_limits<Real>::infinity());
-    for (Real before = 0; dashpots_.any() && std::isfinite(found.time_step) && std::abs(found.time_step - before) > 1e-5 * found.time_step;) {
-      before = found.time_step;
-      found = limit(before);
+    if (!dashpots_.any() && !laws_move_) return found;
+    Real dt = std::isfinite(found.time_step) ? found.time_step : 1;  // s: damping alone limits it too, from whatever step one looks
+    for (int round = 0; round < 100; ++round) {
+      found = limit(dt);
+      if (!std::isfinite(found.time_step) || std::abs(found.time_step - dt) <= 1e-5 * found.time_step) break;
+      dt = found.time_step;
     }
     return found;
   }
 
-  // What broke loose of a mean since the last step is let go; what is left is held to the prescribed velocity.
-  void grip_anew_after_breaks(Workings& w) {
+  // Laws that read velocities see those of the step, as far as they can be known before its forces are: v + beta dt a. They are exact to
+  // second order; those of half a step ago, which stand there, would make it first.   docs/theory/verlet.md
+  void evaluate_foreseen(Workings& w) {
+    half_way_.resize(static_cast<std::size_t>(2 * count_));
+    each_shared(count_, [&](Index i) {
+      half_way_[static_cast<std::size_t>(2 * i)] = velocity[i];
+      if (spin) half_way_[static_cast<std::size_t>(2 * i + 1)] = spin[i];
+    });
+    behind_ = true;
+    complete(w);
+    w.evaluate(true);
+    each_shared(count_, [&](Index i) {
+      velocity.set(i, half_way_[static_cast<std::size_t>(2 * i)]);
+      if (spin) spin.set(i, half_way_[static_cast<std::size_t>(2 * i + 1)]);
+    });
+  }
+
+  // At the velocities that stand there.
+  Real power_of_laws(Workings& w) const {
+    Real power = 0;
+    if (laws_move_)
+      for (const auto& [law, table] : w.laws()) power += law->power(w.domain(), *table);
+    return power;
+  }
+
+  // What broke since the last step pulls no longer. What broke loose of a mean is let go; what is left is held to the prescribed
+  // velocity.
+  void heed_breaks(Workings& w) {
     const std::vector<Break>& breaks = w.domain().breaks().breaks;
     if (seen_breaks_ == breaks.size()) return;
     const bool loosened = grips_.loosened(breaks, seen_breaks_);
     seen_breaks_ = breaks.size();
-    if (!loosened) return;
-    complete(w);
-    gripped[0] = static_cast<Real>(w.moment().step);
-    grips_ = Grips(w, w.moment().step);
-    grips_.seize(w, places(), turns(), *beta);
+    if (loosened) {
+      complete(w);
+      gripped[0] = static_cast<Real>(w.moment().step);
+      Grips anew(w, w.moment().step);
+      anew.take_over(w, grips_, places(), turns());
+      grips_ = std::move(anew);
+    }
+    grips_.bonds_broke(w, places(), turns(), *beta);
+    if (loosened) grips_.seize(w, places(), turns(), *beta);
   }
 
   VerletRows verlet(Workings& w) const { return {motion(), w.moment().time_step, 0.5 * *beta * w.moment().time_step}; }
@@ -214,6 +255,9 @@ class Verlet final : public Mover {
   Dashpots dashpots_;
   BetaDamping beta_damping_;
   bool behind_ = false;          // velocities stand half a step behind the places
+  bool laws_move_ = false;       // some law of the stage reads velocities
+  std::vector<Vec3> half_way_;   // velocities and spins, while laws see others
+  Real dt_ = 0;                  // [s]
   std::size_t seen_breaks_ = 0;  // of the log, that the grips know of
   StepLimit step_;
 };

@@ -8,7 +8,7 @@ class Snapshot final : public Watcher {
   static constexpr const char* about = "Records fields of elements and bonds as a frame of run.h5, for ParaView and h5py";
   Param<std::vector<std::string>> fields{this,
                                          {.name = "fields",
-                                          .doc = "Names of the fields, of elements and of bonds alike; id, position, radius, and ends and state of the bonds are always there",
+                                          .doc = "Names of the fields, of elements and of bonds alike, or 'all'; id, position, radius, and ends and state of the bonds are always there",
                                           .fallback = "position",
                                           .role = Role::fields}};
   Param<bool> picture{this, {.name = "picture", .doc = "Whether the report draws these frames in any case", .fallback = "no"}};

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 CODE = ["tools/plugin-template/bond/rope.cpp", "tools/plugin-template/load/shake.cpp", "tools/plugin-template/watch/centroid.cpp",
-        "tools/plugin-template/CMakeLists.txt", "tests/architecture/installed_package/tripwire.cpp"]
+        "tools/plugin-template/CMakeLists.txt", "tests/architecture/installed_package/tripwire.cpp", "tests/laws/damped_spring.cpp"]
 
 
 def main():

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Who includes whom: every part of the program includes only the parts that stand below it."""
+"""Who includes whom: every part of the program includes only the parts that stand below it; and who has threads: one file."""
 import re
 import sys
 from pathlib import Path
@@ -52,6 +52,8 @@ def main():
         for number, line in enumerate(file.read_text().splitlines(), 1):
             found = re.match(r'\s*#\s*include\s*[<"]([^>"]+)', line)
             why = found and objection(part_of(name), found.group(1))
+            if re.match(r"\s*#\s*(pragma\s+omp|include\s*<omp\.h>)", line):
+                why = "threads share loops through core/base/parallel.hpp alone"
             if why:
                 wrong.append(f"{name}:{number}: {line.strip()}: {why}")
     print("\n".join(wrong) or f"{len(files)} files include in the right direction")

@@ -62,6 +62,13 @@ assert any(abs(row["x"] - 2.01e-3) < 1e-7 for row in crossed), crossed
 assert all(abs(p["x"] - 2e-3 - f["displacement"]) < 1e-12 for p, f in zip(place, force) if p["step"] == f["step"]), "apart"
 END
 
+echo "the resolved deck names the library that the command line named"
+mkdir "$work/it's here"
+cp "$ropes" "$work/it's here/my ropes.so"
+expect 0 -- "$beadwork" run "$deck" --plugins "$work/it's here/my ropes.so" --out "$work/named" --threads 1
+expect 0 -- env -C / "$beadwork" run "$work/named/resolved.xml" --out "$work/again" --threads 1
+cmp "$work/out/curves/force.csv" "$work/again/curves/force.csv" && cmp "$work/named/resolved.xml" "$work/again/resolved.xml" || fail "the resolved deck is another one"
+
 echo "what is told of bonds holds for a law of one's own: dashpots, for one"
 expect 0 -- "$beadwork" run "$source/tests/architecture/installed_package/damped.xml" --plugins "$ropes" --out "$work/damped" --threads 1
 /usr/bin/python3 - "$work/damped/curves/energy.csv" <<'END' || fail "dashpots take another share of the energy than their damping ratio says"

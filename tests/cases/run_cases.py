@@ -3,9 +3,11 @@
 Usage: run_cases.py BEADWORK DECK QUESTION
 
 same_bits   one thread, two threads, a run split by a restart, and narrower instruction sets: equal bits in every
-            checkpoint and curve; a look at each step: equal bits in the checkpoint
+            checkpoint, curve and frame, which have every field that the deck's plugins offer; a look at each step: equal bits
+            in the checkpoint
 mixed       as same_bits, with the forces of beams in single precision
 killed      kill -9 in the middle: run.h5 opens, and the checkpoint goes on to the same bits
+resolved    resolved.xml alone, run from another folder: equal bits in every curve, frame and checkpoint
 terminated  SIGTERM: exit code 5, a checkpoint, and --resume goes on to the same bits
 """
 import os
@@ -21,11 +23,15 @@ from pathlib import Path
 import h5py
 import numpy
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+import same_run  # noqa: E402
+
 # Steps to run, and parameters by which those steps reach the damage that the case is about. A case that is not listed
 # runs STEPS steps of its deck as it is.
 STEPS = 600
 HURRY = {
     "dcb": (600, ["v=200 m/s", "a0=1 mm", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
+    "glued-block": (600, ["v=20 m/s", "count=800"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
@@ -39,6 +45,7 @@ class Case:
         for file in deck.parent.glob("*.xml"):
             shutil.copy(file, folder)
         self.deck = folder / deck.name
+        self.deck.write_text(self.deck.read_text().replace("</scene>", '<watch><snapshot fields="all" every="1"/></watch></scene>'))
         self.drop_parameters_of_until()
 
     def drop_parameters_of_until(self):
@@ -96,6 +103,8 @@ class Case:
             frames = [list(file.get("frames", {})) for file in (a, b)]
             if alike and frames[0] != frames[1]:
                 differences.append(f"frames {frames[0][:30]} and {frames[1][:30]}")
+        for group in ("frames", "breaks") if alike else ():
+            differences += same_run.differences_of_groups(self.folder / one, self.folder / other, "run.h5", group)
         if self.settings and not damaged and one != "whole":
             differences.append("nothing was damaged in these steps: make HURRY faster")
         print(f"{one} and {other}: {len(names[0])} datasets, {len(frames[0])} frames{', damaged' if damaged else ''}: "
@@ -188,10 +197,20 @@ def terminated(case):
     return wrong + goes_on(case)
 
 
+def resolved(case):
+    case.run("one", case.steps)
+    with tempfile.TemporaryDirectory() as elsewhere:
+        command = [case.beadwork, "run", "-q", str(case.folder / "one/resolved.xml"), "--out", str(case.folder / "two"), "--threads", "1"]
+        done = subprocess.run(command, cwd=elsewhere, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        return [f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}"]
+    return same_run.differences(case.folder / "one", case.folder / "two")
+
+
 def main():
     os.environ.pop("OMP_NUM_THREADS", None)
     os.environ["OMP_WAIT_POLICY"] = "passive"  # two threads may have to share a core here
-    questions = {"same_bits": same_bits, "mixed": mixed, "killed": killed, "terminated": terminated}
+    questions = {"same_bits": same_bits, "mixed": mixed, "killed": killed, "resolved": resolved, "terminated": terminated}
     with tempfile.TemporaryDirectory() as folder:
         case = Case(sys.argv[1], Path(sys.argv[2]).resolve(), Path(folder))
         differences = questions[sys.argv[3]](case)

@@ -1,12 +1,12 @@
 #include "core/mechanics/stability.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <numbers>
 
+#include "core/base/parallel.hpp"
 #include "core/mechanics/beam_stiffness.hpp"
 #include "core/mechanics/cohesive_stiffness.hpp"
 #include "core/mechanics/spring_stiffness.hpp"
@@ -270,12 +270,12 @@ TEST(stability, no_bonds_no_limit) {
 
 TEST(stability, gives_the_same_bits_with_any_number_of_threads) {
   const Scene s = random_network(8, 8, 20, 0.5, 4);  // 1280 elements: more than one block of a sum
-  const int before = omp_get_max_threads();
-  omp_set_num_threads(1);
+  const int before = threads_in_use();
+  use_threads(1);
   const auto one = stable_step(s.network, s.mobility());
-  omp_set_num_threads(3);
+  use_threads(3);
   const auto three = stable_step(s.network, s.mobility());
-  omp_set_num_threads(before);
+  use_threads(before);
   EXPECT_EQ(one.dt, three.dt);
   EXPECT_EQ(one.mode.lambda, three.mode.lambda);
   EXPECT_EQ(one.mode.element, three.mode.element);

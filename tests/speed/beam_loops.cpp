@@ -2,7 +2,6 @@
 // (tests/speed/compare.sh). And the same through the core's loop, with its chunks and halo rows.
 
 #include <benchmark/benchmark.h>
-#include <omp.h>
 
 #include <vector>
 
@@ -50,7 +49,7 @@ void plain_scalar_loop(benchmark::State& state) {
 BENCHMARK(plain_scalar_loop)->Unit(benchmark::kMillisecond)->Repetitions(5)->ReportAggregatesOnly();
 
 void core_loop(benchmark::State& state) {
-  omp_set_num_threads(static_cast<int>(state.range(0)));
+  use_threads(static_cast<int>(state.range(0)));
   speed::Scene scene;
   for (auto _ : state) {
     bond_loop::run<Pass{}>(scene.law, *scene.table, scene.domain, true);

@@ -8,10 +8,10 @@
 // And chunks_without_law, which fetches the ends and adds something to them: what a bond costs besides its law.
 
 #include <benchmark/benchmark.h>
-#include <omp.h>
 
 #include <array>
 
+#include "core/base/parallel.hpp"
 #include "tests/speed/lattice.hpp"
 
 namespace beadwork::speed {
@@ -30,7 +30,7 @@ void report(benchmark::State& state, const Scene& scene) {
 }
 
 void chunks(benchmark::State& state) {
-  omp_set_num_threads(static_cast<int>(state.range(0)));
+  use_threads(static_cast<int>(state.range(0)));
   Scene scene;
   for (auto _ : state) {
     bond_loop::run<Pass{}>(scene.law, *scene.table, scene.domain, true);
@@ -42,13 +42,13 @@ void chunks(benchmark::State& state) {
 struct NoLaw {
   static constexpr bool turns = true;
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At&, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At&, const TurningEnds<T>& ends) const {
     return {copy(ends.apart), copy(ends.q1.v), copy(ends.q2.v)};
   }
 };
 
 void chunks_without_law(benchmark::State& state) {
-  omp_set_num_threads(static_cast<int>(state.range(0)));
+  use_threads(static_cast<int>(state.range(0)));
   Scene scene;
   for (auto _ : state) bond_loop::run<Pass{}>(NoLaw{}, *scene.table, scene.domain, true);
   report(state, scene);
@@ -68,7 +68,7 @@ struct Lines {
 };
 
 void stored(benchmark::State& state) {
-  omp_set_num_threads(static_cast<int>(state.range(0)));
+  use_threads(static_cast<int>(state.range(0)));
   Scene scene;
   const BondTable& table = *scene.table;
   const auto bonds = static_cast<std::size_t>(table.size() / W * W);  // what fills no pack is left out
@@ -87,8 +87,8 @@ void stored(benchmark::State& state) {
   Real* sums = base(scene.domain.elements().column("force").view<Vec3>());
   const Index *first = &table.first()[0], *second = &table.second()[0];
   for (auto _ : state) {
-#pragma omp parallel for schedule(static)
-    for (std::size_t b = 0; b < bonds; b += W) {
+    each_shared(bonds / W, [&](std::size_t pack) {
+      const std::size_t b = pack * W;
       bool ignored = false;
       const auto row = static_cast<Index>(b);
       const Lines out(scene.law.act<Pass{}>(Several<W>{row, &ignored}, elements.ends<Beams, W>(first + row, second + row)));
@@ -99,9 +99,8 @@ void stored(benchmark::State& state) {
         out.low2[lane].store(to + 8);
         out.high2[lane].store(to + 12);
       }
-    }
-#pragma omp parallel for schedule(static)
-    for (std::size_t n = 0; n < of.size(); ++n) {
+    });
+    each_shared(of.size(), [&](std::size_t n) {
       Quad low(0), high(0);
       for (std::size_t k = begin[n]; k < begin[n + 1]; ++k) {
         low = low + Quad::load(&lines[8 * line[k]]);
@@ -109,7 +108,7 @@ void stored(benchmark::State& state) {
       }
       low.store(sums + 8 * n);
       high.store(sums + 8 * n + 4);
-    }
+    });
   }
   report(state, scene);
 }
@@ -162,7 +161,7 @@ struct Halves {
 };
 
 void both_ends(benchmark::State& state) {
-  omp_set_num_threads(static_cast<int>(state.range(0)));
+  use_threads(static_cast<int>(state.range(0)));
   Scene scene;
   const Halves halves(scene);
   const Beams law = halves.law();
@@ -171,8 +170,7 @@ void both_ends(benchmark::State& state) {
   const Index length = block_length(scene.domain.size());
   const std::size_t blocks = halves.cuts.size() - 1;
   for (auto _ : state) {
-#pragma omp parallel for schedule(static)
-    for (std::size_t c = 0; c < blocks; ++c) {
+    each_shared(blocks, [&](std::size_t c) {
       elements.clear(static_cast<Index>(c) * length, std::min(static_cast<Index>(c + 1) * length, scene.domain.size()));
       for (Index h = halves.cuts[c]; h < halves.cuts[c + 1]; h += W) {
         bool ignored = false;
@@ -183,7 +181,7 @@ void both_ends(benchmark::State& state) {
           (Quad::load(to + 4) + out.high1[lane]).store(to + 4);
         }
       }
-    }
+    });
   }
   report(state, scene);
 }

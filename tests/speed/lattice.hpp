@@ -56,7 +56,7 @@ struct Beams {
     return BeamRest<T>{at(axis), at(length), at(axial), b, T(0.4) * b};
   }
   template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
+  [[gnu::always_inline]] Wrench<T> act(const At& at, const TurningEnds<T>& ends) const {
     return beam_wrench<T>(rest(at), ends.apart, ends.q1, ends.q2);
   }
 };

@@ -1,7 +1,6 @@
 // What one and two threads of this processor can do at best, for docs/performance.md: multiplications and additions that wait for
 // nothing, and streams through memory and through the cache.
 
-#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "core/base/pack.hpp"
+#include "core/base/parallel.hpp"
 
 namespace beadwork::speed {
 namespace {
@@ -39,8 +39,7 @@ double gigaflops(int threads) {
   double best = 0;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const double start = seconds();
-#pragma omp parallel
-    multiply_and_add(times);
+    each_shared(16 * threads, [](int) { multiply_and_add(times / 16); });
     best = std::max(best, threads * 16. * W * times / (seconds() - start) / 1e9);
   }
   return best;
@@ -55,8 +54,7 @@ double gigabytes(long megabytes) {
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const double start = seconds();
     for (long round = 0; round < rounds; ++round) {
-#pragma omp parallel for schedule(static)
-      for (long n = 0; n < count; ++n) to[n] = x[n] + 0.5 * y[n];
+      each_shared(count, [&](long n) { to[n] = x[n] + 0.5 * y[n]; });
     }
     best = std::max(best, 32. * static_cast<double>(rounds * count) / (seconds() - start) / 1e9);
   }
@@ -69,7 +67,7 @@ double gigabytes(long megabytes) {
 int main() {
   using namespace beadwork::speed;
   for (const int threads : {1, 2}) {
-    omp_set_num_threads(threads);
+    use_threads(threads);
     std::printf("%d threads: %.1f Gflop/s; streams of 16 MB %.1f GB/s, of 400 MB %.1f GB/s\n", threads, gigaflops(threads), gigabytes(16), gigabytes(400));
   }
 }

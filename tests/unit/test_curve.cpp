@@ -62,24 +62,40 @@ TEST(Curve, numbers_read_back_to_the_same_bits) {
 
 TEST(Curve, a_resumed_curve_loses_the_rows_after_the_checkpoint_and_goes_on) {
   const Scratch scratch;
+  std::uintmax_t length = 0;
   {
     Curve curve = fresh_curve(scratch / "force.csv");
-    for (int step = 0; step <= 500; step += 100) add(curve, step, step, 1);
+    for (int step = 0; step <= 500; step += 100) {
+      add(curve, step, step, 1);
+      if (step == 200) length = curve.length();
+    }
   }
-  cut_curves(scratch.path(), 250);
+  cut(cuts_to({{"force", length}}, {scratch / "force.csv"}));
   Curve curve = Curve::resume(scratch / "force.csv", time_and_force);
   add(curve, 300, 300, 2);
   EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n0,0,1\n100,100,1\n200,200,1\n300,300,2\n");
 }
 
-TEST(Curve, a_row_of_the_step_of_the_checkpoint_stays) {
+TEST(Curve, of_several_rows_of_one_step_those_before_the_checkpoint_stay) {
   const Scratch scratch;
+  std::uintmax_t length = 0;
   {
     Curve curve = fresh_curve(scratch / "force.csv");
-    for (int step = 0; step <= 200; step += 100) add(curve, step, 0, 0);
+    for (int row = 0; row < 3; ++row) {
+      add(curve, 100, 0, row);
+      if (row == 1) length = curve.length();
+    }
   }
-  cut_curves(scratch.path(), 100);
-  EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n0,0,0\n100,0,0\n");
+  cut(cuts_to({{"force", length}}, {scratch / "force.csv"}));
+  EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n100,0,0\n100,0,1\n");
+}
+
+TEST(Curve, one_that_the_checkpoint_does_not_know_begins_anew) {
+  const Scratch scratch;
+  Curve late = fresh_curve(scratch / "late.csv");
+  add(late, 100, 1, 2);
+  cut(cuts_to({{"force", 1000}}, {scratch / "late.csv"}));
+  EXPECT_EQ(text_of(scratch / "late.csv"), "step [1],time [s],force [N]\n");
 }
 
 TEST(Curve, a_torn_last_row_is_dropped_wherever_it_was_torn) {
@@ -87,9 +103,11 @@ TEST(Curve, a_torn_last_row_is_dropped_wherever_it_was_torn) {
   const std::string whole = "step [1],time [s],force [N]\n0,0,0\n100,0.25,-7.5\n";
   const std::string last = "200,0.5,-12.25\n";
   for (std::size_t cut = 0; cut < last.size(); ++cut) {
-    write_text(scratch / "force.csv", whole + last.substr(0, cut));
-    cut_curves(scratch.path(), 1000);
-    EXPECT_EQ(text_of(scratch / "force.csv"), whole) << "torn after " << cut;
+    for (const std::size_t known : {whole.size(), whole.size() + 100}) {  // rows that the checkpoint knew of may have been lost
+      write_text(scratch / "force.csv", whole + last.substr(0, cut));
+      beadwork::cut(cuts_to({{"force", known}}, {scratch / "force.csv"}));
+      EXPECT_EQ(text_of(scratch / "force.csv"), whole) << "torn after " << cut;
+    }
   }
 }
 
@@ -152,7 +170,7 @@ TEST(Curve, a_kill_loses_no_row_but_the_one_being_written) {
         },
         1000 + 700 * trial);
     if (!fs::exists(file)) continue;
-    cut_curves(file.parent_path(), 1 << 30);
+    cut(cuts_to({{"force", 1 << 30}}, {file}));
     std::ifstream in(file);
     std::string row;
     std::getline(in, row);

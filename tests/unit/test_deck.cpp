@@ -465,7 +465,7 @@ TEST_F(AValue, that_is_not_what_is_wanted_is_refused_in_words) {
   EXPECT_FALSE(quantity("3 GPA", "Pa"));
   EXPECT_EQ(said(), "13: 'value' wants Pa, got \"3 GPA\": unknown unit \"GPA\". Did you mean \"GPa\"?");
   EXPECT_FALSE(quantity("${n}", "m"));
-  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"${n}\" which is a plain number");
+  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"3\" which is a plain number");
   EXPECT_FALSE(quantity("1 2 mm", "m"));
   EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"1 2 mm\" which are 2 values");
   EXPECT_FALSE(quantity("${side} mm", "m"));
@@ -612,6 +612,11 @@ TEST(ResolvedDeck, is_canonical_xml_that_reads_back) {
   const auto deck = read_deck(path, {}, complaints);
   ASSERT_TRUE(deck) << complaints.text();
   EXPECT_EQ(deck->root->find("name")->value, "a \"b\" <c> & d\n\te");
+  const auto tree = read_resolved_xml(xml);
+  ASSERT_TRUE(tree);
+  EXPECT_EQ(resolved_xml(*tree), xml);
+  EXPECT_EQ(tree->children[0].children[0].find("x")->at.where(), "resolved.xml:4:11");
+  EXPECT_FALSE(read_resolved_xml("<scene"));
 }
 
 }  // namespace

@@ -229,6 +229,34 @@ TEST_F(AnExpression, points_at_what_is_wrong_in_the_grammar) {
   EXPECT_THAT(complaint(std::string(5000, '(')), HasSubstr("longer than"));
 }
 
+TEST_F(AnExpression, is_spelt_out_without_parameters_in_si) {
+  parameter("L", "12 mm"), parameter("notch", "-1.6 mm"), parameter("k", "3"), parameter("debt", "-2");
+  parameter("per", "${1/(3 mm)^2/7 s}"), parameter("M", "0.1 N.mm"), parameter("odd", "${2 MPa*(3 mm)^0.5}");
+  const auto spelt = [&](const std::string& text) { return compile(text)->text(); };
+  EXPECT_EQ(spelt("x<L/2 and not(n>=k||x==0 m)"), "x < 0.012 m / 2 and not (n >= 3 or x == 0 m)");
+  EXPECT_EQ(spelt("L-notch"), "0.012 m - (-0.0016 m)");
+  EXPECT_EQ(spelt("-L^2"), "-(0.012 m) ^ 2");
+  EXPECT_EQ(spelt("${debt^2}*30 percent"), "((-2) ^ 2) * 0.3");
+  EXPECT_EQ(spelt("max( L ,2 um,-x)*pi"), "max(0.012 m, 2e-06 m, -x) * pi");
+  EXPECT_EQ(spelt("2*M"), "2 * 0.0001 J");
+  EXPECT_EQ(spelt("per*x"), "15873.015873015875 m^-2.s^-1 * x");
+  const Scope nothing;
+  for (const std::string text : {"x<L/2", "L-notch", "-L^2", "debt^k^2/7", "if(x>L,odd/per,M*3)^2", "per*per/odd", "k-n", "2*-debt", "atan2(notch,x)*1/3",
+                                 "sqrt(L*L+x^2)/0.1 um", "1e-7 m*n", "x>0.3 mm or n<k and x<L", "(x<L)&&!(n<debt)", "25.4 min * per * x"}) {
+    const auto first = compile(text);
+    ASSERT_TRUE(first) << text << complaints.text();
+    const auto again = Expression::compile(first->text(), place(first->text()), nothing, variables, complaints);
+    ASSERT_TRUE(again) << first->text() << complaints.text();
+    EXPECT_EQ(again->text(), first->text());
+    EXPECT_TRUE(again->dimension() == first->dimension());
+    for (const double x : {0.0, 1e-3 / 3, -7.7, 1e12}) {
+      const std::vector<double> at{x, 3 * x - 1};
+      const double wanted = first->evaluate(at), got = again->evaluate(at);
+      EXPECT_TRUE(wanted == got || (std::isnan(wanted) && std::isnan(got))) << text << " " << first->text() << " " << wanted << " " << got;
+    }
+  }
+}
+
 TEST_F(AnExpression, asks_back_where_a_name_is_both_a_unit_and_a_parameter) {
   parameter("t", "2 mm");
   EXPECT_THAT(complaint("10 mm/t"), HasSubstr("both a unit and a name"));

@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
+#include <tuple>
 
 #include "core/base/random.hpp"
 #include "core/mechanics/beam.hpp"
-#include "core/mechanics/cohesive.hpp"
+#include "core/mechanics/cohesive_modes.hpp"
 #include "core/mechanics/spring.hpp"
 #include "core/mechanics/verlet.hpp"
 
@@ -16,6 +18,8 @@ namespace lanes {
 
 struct Mask {
   bool a, b;
+  friend Mask operator&&(Mask x, Mask y) { return {x.a && y.a, x.b && y.b}; }
+  friend Mask operator||(Mask x, Mask y) { return {x.a || y.a, x.b || y.b}; }
 };
 struct Two {
   double a, b;
@@ -28,6 +32,8 @@ struct Two {
   friend Two operator/(Two x, Two y) { return {x.a / y.a, x.b / y.b}; }
   friend Two operator-(Two x) { return {-x.a, -x.b}; }
   friend Mask operator<(Two x, Two y) { return {x.a < y.a, x.b < y.b}; }
+  friend Mask operator>(Two x, Two y) { return {x.a > y.a, x.b > y.b}; }
+  friend Mask operator<=(Two x, Two y) { return {x.a <= y.a, x.b <= y.b}; }
   friend Mask operator>=(Two x, Two y) { return {x.a >= y.a, x.b >= y.b}; }
 };
 Two sqrt(Two x) { return {std::sqrt(x.a), std::sqrt(x.b)}; }
@@ -119,32 +125,62 @@ TEST(lane, a_beam_in_a_pack_has_the_bits_of_a_beam_alone) {
   }
 }
 
-TEST(lane, a_contact_in_a_pack_has_the_bits_of_a_contact_alone_on_either_side_of_every_threshold) {
-  Random random(2);
-  constexpr auto modes = CohesiveModes::both;
-  const CohesiveLaws<Real> laws{{60, 0.05, 0.4}, {40, 0.05, 0.4}};
-  const CohesiveLaws<Two> packed{{60., 0.05, 0.4}, {40., 0.05, 0.4}};
-  const Vec3 bonded(1, 0.5, -0.2);
-  const auto arms = contact_arms(bonded, 1, 1, identity(), identity());
-  const CohesiveRest<Real> rest{bonded.norm(), 2};
-  int failed = 0, pressed = 0;
+template <bool carried, class T>
+auto faces_of(const ContactArms<T>& arms, const Vec<T>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
+  if constexpr (carried)
+    return carried_faces<T>(arms, {T(1.76) * arms.arm1, T(-1.76) * arms.arm2}, d, q1, q2);
+  else
+    return pair_faces<T>(1.1, arms, d, q1, q2);
+}
+
+template <bool carried, class T, class Modes>
+auto contact_of(const Modes& modes, const ContactArms<T>& arms, const Vec<T>& d, const Quaternion<T>& q1, const Quaternion<T>& q2,
+                const CohesiveHistory<Modes, T>& history) {
+  const auto at = faces_of<carried, T>(arms, d, q1, q2);
+  const auto now = cohesive_state<Modes>(modes, at, T(2), history);
+  return std::tuple(cohesive_wrench(modes, at, T(2), now.share), now.after, cohesive_lost<Modes>(modes, at, T(2), history, now.after));
+}
+
+template <bool carried, class Modes>
+void a_contact_has_the_bits_of_one_alone(const Modes& modes, int seed) {
+  Random random(static_cast<std::uint64_t>(seed));
+  const auto arms = contact_arms(Vec3(1, 0.5, -0.2), 1, 1, identity(), identity());
+  const ContactArms<Two> both_arms{both(arms.arm1, arms.arm1), both(arms.arm2, arms.arm2)};
+  int failed = 0, held = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const State a = random_state(random), b = random_state(random);
-    const Openings<Real> ka{random.uniform(0, 0.5), random.uniform(0, 0.5)}, kb{random.uniform(0, 0.1), 0};
-    const auto one = cohesive_wrench<modes>(laws, rest, arms, a.d, a.q1, a.q2, ka);
-    const auto other = cohesive_wrench<modes>(laws, rest, arms, b.d, b.q1, b.q2, kb);
-    const auto pack = cohesive_wrench<modes, Two>(
-        packed, {rest.length, 2.}, {both(arms.arm1, arms.arm1), both(arms.arm2, arms.arm2)}, both(a.d, b.d),
-        both(a.q1, b.q1), both(a.q2, b.q2), {Two(ka.normal, kb.normal), Two(ka.shear, kb.shear)});
-    expect_lanes(pack.wrench, one.wrench, other.wrench);
-    EXPECT_EQ(pack.history.normal.a, one.history.normal);
-    EXPECT_EQ(pack.history.shear.b, other.history.shear);
-    failed += has_failed<modes>(laws, one.history);
-    pressed += a.d.norm() < rest.length;
+    CohesiveHistory<Modes, Real> ka{{random.uniform(0, 0.5), random.uniform(0, 0.5)}, Real(trial % 7 == 0)}, kb{{random.uniform(0, 0.1), 0}, 0};
+    const auto [one, one_after, one_lost] = contact_of<carried, Real>(modes, arms, a.d, a.q1, a.q2, ka);
+    const auto [other, other_after, other_lost] = contact_of<carried, Real>(modes, arms, b.d, b.q1, b.q2, kb);
+    const auto history = std::bit_cast<std::array<Real, 3>>(ka), second = std::bit_cast<std::array<Real, 3>>(kb);
+    const std::array<Two, 3> lanes{Two(history[0], second[0]), Two(history[1], second[1]), Two(history[2], second[2])};
+    const auto [pack, after, lost] = contact_of<carried, Two>(modes, both_arms, both(a.d, b.d), both(a.q1, b.q1), both(a.q2, b.q2),
+                                                              std::bit_cast<CohesiveHistory<Modes, Two>>(lanes));
+    expect_lanes(pack, one, other);
+    EXPECT_EQ(lost.a, one_lost);
+    EXPECT_EQ(lost.b, other_lost);
+    const auto packed = std::bit_cast<std::array<Two, 3>>(after);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(packed[k].a, (std::bit_cast<std::array<Real, 3>>(one_after)[k]));
+      EXPECT_EQ(packed[k].b, (std::bit_cast<std::array<Real, 3>>(other_after)[k]));
+    }
+    failed += modes.failed(one_after.modes);
+    held += one.force.norm() > 0;
   }
   EXPECT_GT(failed, 20);
   EXPECT_LT(failed, 180);
-  EXPECT_GT(pressed, 20);
+  EXPECT_GT(held, 50);
+}
+
+TEST(lane, a_contact_in_a_pack_has_the_bits_of_a_contact_alone_on_either_side_of_every_threshold) {
+  const Softening<Real> opens{60, 0.05, 0.4}, slides{40, 0.06, 0.5};
+  const IndependentModes<CohesiveModes::both> independent{opens, slides};
+  a_contact_has_the_bits_of_one_alone<false>(independent, 2);
+  a_contact_has_the_bits_of_one_alone<true>(independent, 3);
+  for (const Coupling& coupling : {Coupling{true, UnitPower(1)}, Coupling{false, UnitPower(2.284)}}) {
+    a_contact_has_the_bits_of_one_alone<false>(MixedMode{opens, slides, coupling}, 4);
+    a_contact_has_the_bits_of_one_alone<true>(MixedMode{opens, slides, coupling}, 5);
+  }
 }
 
 TEST(lane, springs_and_steps_do_too) {

@@ -2,20 +2,23 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/domain/neighbours.hpp"
 #include "core/domain/order.hpp"
+#include "core/domain/reach.hpp"
 
 namespace beadwork {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 struct Cloud {
@@ -118,11 +121,11 @@ TEST(Neighbours, takes_an_empty_cloud_and_a_single_element) {
 
 TEST(Neighbours, gives_the_same_list_for_any_number_of_threads) {
   const Cloud c = cloud(60000, 40, 0.3, 0.6, 5);
-  omp_set_num_threads(1);
+  use_threads(1);
   const auto alone = find_pairs(c.position, c.radius, 0.1);
-  omp_set_num_threads(3);
+  use_threads(3);
   const auto together = find_pairs(c.position, c.radius, 0.1);
-  omp_set_num_threads(omp_get_num_procs());
+  use_threads(2);
   EXPECT_EQ(alone, together);
 }
 
@@ -164,6 +167,72 @@ TEST(HilbertOrder, keeps_the_order_of_coincident_points_and_refuses_what_is_not_
   EXPECT_EQ(hilbert_order(std::vector<Vec3>(3, Vec3(1, 1, 1))), (std::vector<Index>{0, 1, 2}));
   EXPECT_TRUE(hilbert_order({}).empty());
   EXPECT_THROW(hilbert_order(std::vector<Vec3>{{0, 0, 0}, {0, std::nan(""), 0}}), std::invalid_argument);
+}
+
+TEST(Neighbours, of_a_heap_are_refused_before_they_are_looked_for) {
+  Cloud c;
+  c.position.assign(40000, Vec3(1, 1, 1));
+  c.radius.assign(40000, 1e-3);
+  c.position.push_back({0, 0, 0});
+  c.radius.push_back(1e-3);
+  EXPECT_THAT(message_of(c), AllOf(HasSubstr("so close together"), HasSubstr("about 799980000 pairs")));
+}
+
+TEST(Neighbours, search_can_be_interrupted) {
+  const Cloud c = cloud(100, 1, .01, .1, 1);
+  struct Stop {};
+  EXPECT_THROW(find_pairs(c.position, c.radius, 0, 0, [] { throw Stop{}; }), Stop);
+}
+
+// --- pairs that reach over a third element
+
+std::vector<Pair> next_only(const Cloud& c, const std::vector<Pair>& pairs) {
+  const std::vector<Index> between = elements_between(c.position, c.radius, pairs);
+  std::vector<Pair> next;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+    if (between[p] < 0) next.push_back(pairs[p]);
+  return next;
+}
+
+TEST(Reach, a_row_of_overlapping_elements_is_left_with_its_next_neighbours) {
+  Cloud row;
+  std::vector<Pair> expected;
+  for (int k = 0; k < 25; ++k) {
+    row.position.push_back({0.2 * k, 0.02 * (k % 2), 0});  // a little crooked
+    row.radius.push_back(k % 3 == 0 ? 1.1 : 1);
+    if (k > 0) expected.push_back({Index(k - 1), Index(k)});
+  }
+  const auto pairs = find_pairs(row.position, row.radius);
+  EXPECT_GT(pairs.size(), 150u);
+  EXPECT_EQ(next_only(row, pairs), expected);
+}
+
+TEST(Reach, a_wide_gap_reaches_over_the_elements_of_a_lattice) {
+  Cloud lattice;
+  for (int x = 0; x < 5; ++x)
+    for (int y = 0; y < 5; ++y) {
+      lattice.position.push_back({2.0 * x, 2.0 * y, 0});
+      lattice.radius.push_back(1);
+    }
+  const auto wide = find_pairs(lattice.position, lattice.radius, 1.01);  // up to the second along a row
+  const auto touching_and_across = find_pairs(lattice.position, lattice.radius, 0.5);
+  EXPECT_EQ(next_only(lattice, wide), touching_and_across);
+}
+
+TEST(Reach, elements_that_touch_have_nothing_between_them_however_small_those_beside) {
+  // Three of radius 1 touch one another; the fourth sits in the hole between them and touches all.
+  const Real side = 2 / std::sqrt(3.0);
+  Cloud c;
+  for (int k = 0; k < 3; ++k) {
+    const Real angle = 2 * std::numbers::pi * k / 3;
+    c.position.push_back({side * std::cos(angle), side * std::sin(angle), 0});
+    c.radius.push_back(1);
+  }
+  c.position.push_back({0, 0, 0});
+  c.radius.push_back(side - 1);
+  const auto pairs = find_pairs(c.position, c.radius, 1e-9);
+  EXPECT_EQ(pairs.size(), 6u);
+  EXPECT_EQ(next_only(c, pairs), pairs);
 }
 
 }  // namespace

@@ -2,17 +2,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
 #include "core/domain/neighbours.hpp"
 #include "core/packing/blocks.hpp"
 #include "core/packing/crowd.hpp"
+#include "core/packing/insertion.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/projection.hpp"
 #include "core/packing/report.hpp"
@@ -195,6 +196,64 @@ TEST(Packing, keeps_the_ratios_of_all_radii_if_told_to) {
   EXPECT_THAT(p.warnings, ::testing::Contains(HasSubstr("lowered the coordination number")));
 }
 
+/// A packing that could not be made before large elements were let grow in, and its neighbours.
+struct Spread {
+  RadiusLaw law;
+  Real spread;
+  bool box;
+};
+
+class PackingOfSpread : public ::testing::TestWithParam<Spread> {};
+
+TEST_P(PackingOfSpread, is_packed_without_overlap_and_with_the_radii_of_its_law) {
+  const Spread& asked = GetParam();
+  Request request = cube(500);
+  request.dispersion = {asked.law, asked.spread, 0.125};
+  if (!asked.box) request.region = Cylinder{{0, 0, 0}, {0, 0, 2}, 0.5};
+  const Packing p = filled(request);
+  EXPECT_THAT(p.position, SizeIs(500));
+  EXPECT_LE(deepest_overlap(p), 1e-7);
+  const PackingReport r = report(p);
+  EXPECT_LT(r.kolmogorov, 1.36 / std::sqrt(500.0));
+  EXPECT_GT(r.near.without_rattlers, asked.spread > 0 ? 5.5 : 4.5) << "radii that are all alike cannot make room for contacts";
+}
+
+constexpr auto uniform = RadiusLaw::uniform, gaussian = RadiusLaw::truncated_gaussian;
+INSTANTIATE_TEST_SUITE_P(Spreads, PackingOfSpread,
+                         ::testing::Values(Spread{uniform, 0, true}, Spread{uniform, .35, true}, Spread{uniform, .4, false}, Spread{uniform, .45, true},
+                                           Spread{uniform, .5, true}, Spread{uniform, .5, false}, Spread{uniform, .7, true}, Spread{uniform, .9, false},
+                                           Spread{gaussian, .35, true}, Spread{gaussian, .45, false}, Spread{gaussian, .5, true},
+                                           Spread{gaussian, .9, true}),
+                         [](const auto& each) {
+                           const Spread& s = each.param;
+                           return std::string(s.law == uniform ? "uniform_" : "gaussian_") + std::to_string(std::lround(100 * s.spread)) +
+                                  (s.box ? "_box" : "_cylinder");
+                         });
+
+TEST(Packing, lets_a_large_element_grow_in_among_small_ones) {
+  // Small ones stand everywhere already: a hole for one three times as large there never is.
+  Request request = cube(1500);
+  request.dispersion.spread = 0.1;
+  Packing p = free_filling(request);
+  const Real R = p.radius[0];
+  p.waiting.push_back(3 * R);
+  forced_filling(p);
+  EXPECT_THAT(p.position, SizeIs(1501));
+  const Real largest = *std::max_element(p.radius.begin(), p.radius.end());
+  EXPECT_NEAR(largest / p.radius[0], 3, 1e-9);
+}
+
+TEST(Packing, counts_contacts_in_the_bulk_if_told_to) {
+  Packing p = free_filling(cube(2000));
+  forced_filling(p, {.coordination = 6.6, .tolerance = 0.3, .bulk = true});
+  const PackingReport r = report(p);
+  EXPECT_GE(r.touching.bulk, 6.6);
+  EXPECT_LE(r.touching.bulk, 6.64);
+  EXPECT_LT(r.touching.all, 6);
+  Packing few = free_filling(cube(30));
+  EXPECT_THAT(message_of([&] { forced_filling(few, {.coordination = 6.2, .tolerance = 0.3, .bulk = true}); }), HasSubstr("no element is in the bulk"));
+}
+
 // --- free filling alone
 
 TEST(Packing, free_filling_ends_where_nothing_more_fits) {
@@ -232,7 +291,7 @@ TEST(Packing, is_the_same_to_the_bit_with_any_number_of_threads) {
   start.waiting.clear();
   ASSERT_GT(start.position.size(), worth_sharing);
   const auto run = [&start](int threads) {
-    omp_set_num_threads(threads);
+    use_threads(threads);
     Packing p = start;
     std::vector<Index> order;
     Crowd crowd = crowd_of(p, order);
@@ -244,7 +303,7 @@ TEST(Packing, is_the_same_to_the_bit_with_any_number_of_threads) {
     return p;
   };
   const Packing alone = run(1), together = run(2), three = run(3);
-  omp_set_num_threads(omp_get_num_procs());
+  use_threads(2);
   EXPECT_EQ(alike(alone, start), 0u);
   EXPECT_EQ(alike(alone, together), start.position.size());
   EXPECT_EQ(alike(alone, three), start.position.size());
@@ -310,6 +369,78 @@ TEST(Packing, refuses_requests_that_make_no_sense) {
   EXPECT_THAT(with_radius(2), AllOf(HasSubstr("do not fit"), HasSubstr("at most 0.4")));
   EXPECT_THAT(with_radius(-1), HasSubstr("mean radius must be positive"));
   EXPECT_THAT(with_radius(1e-6), HasSubstr("at most 134217727 are possible"));
+}
+
+TEST(Packing, refuses_at_once_what_no_machine_can_hold) {
+  const auto message = [](auto change) {
+    Request request = cube(60);
+    change(request);
+    return message_of([&] { free_filling(request); });
+  };
+  const auto box = [&](const Vec3& extent) { return message([&](Request& q) { q.region = Box{{0, 0, 0}, extent}; }); };
+  EXPECT_THAT(box({5, 5, 1e-5}), AllOf(HasSubstr("too thin for so few elements: 60 of them"), HasSubstr("ask for about")));
+  EXPECT_THAT(box({1e9, 1, 1}), HasSubstr("too thin"));
+  EXPECT_THAT(box({1e-60, 1, 1}), HasSubstr("between 1e-50 and 1e50"));
+  EXPECT_THAT(box({1e120, 1e120, 1e120}), HasSubstr("between 1e-50 and 1e50"));
+  EXPECT_THAT(message([](Request& q) { q.region = Cylinder{{0, 0, 0}, {0, 0, 1}, 1e-8}; }), HasSubstr("too thin"));
+  EXPECT_THAT(message([](Request& q) {
+                q.region = Box{{1e9, 0, 0}, {1e9 + 1, 1, 1}};
+              }),
+              HasSubstr("far from the origin"));
+  EXPECT_THAT(message([](Request& q) {
+                q.region = Box{{0, 0, 0}, {5, 5, 1e-5}};
+                q.count.reset();
+                q.mean_radius = 4e-6;
+              }),
+              HasSubstr("at most 134217727 are possible"));
+}
+
+TEST(Packing, has_no_more_cells_than_it_needs_in_a_thin_region) {
+  // Cells as wide as the elements would be 4e14, and the volume over the largest number of cells says nothing of them.
+  InsertionGrid grid(Box{{0, 0, 0}, {5, 5, 1e-8}}, 1e-7);
+  grid.add({{1, 1, 0}, 1e-8});
+  EXPECT_LT(grid.clearance({{1, 1, 1e-8}, 1e-8}, -1), 0);
+  EXPECT_EQ(grid.clearance({{2, 1, 1e-8}, 1e-8}, -1), 1);
+}
+
+TEST(Packing, can_be_interrupted_in_each_of_its_long_loops) {
+  // Each step is ended at its first, middle and last pause: what is thrown there comes out, and there is no other way.
+  struct Stop {};
+  const auto pauses_of = [](Packing p, const auto& step) {
+    int count = 0;
+    p.pause = [&] { ++count; };
+    step(p);
+    for (const int at : {1, count / 2, count}) {
+      int left = at;
+      p.pause = [&] {
+        if (--left <= 0) throw Stop{};
+      };
+      EXPECT_THROW(step(p), Stop) << at << " of " << count;
+    }
+    return count;
+  };
+  const auto free = [](Packing& p) {
+    Request request = cube(20000);
+    request.pause = p.pause;
+    free_filling(request);
+  };
+  EXPECT_GT(pauses_of({}, free), 20000);
+  const Packing start = free_filling(cube(400));
+  EXPECT_GT(pauses_of(start, [](Packing p) { forced_filling(p); }), 400);
+  Packing packed = start;
+  forced_filling(packed);
+  // A round solves equations in many iterations, each as long as a step of arranging.
+  EXPECT_GT(pauses_of(packed, [](Packing p) { relaxation(p); }), 100);
+  // Cells, then the two loops of the order measure, in stretches of 8192 elements.
+  const Packing lattice = [] {
+    std::vector<Vec3> position;
+    for (int x = 0; x < 30; ++x)
+      for (int y = 0; y < 30; ++y)
+        for (int z = 0; z < 30; ++z) position.push_back({x + .5, y + .5, z + .5});
+    std::vector<Real> radius(position.size(), .5);
+    return packing_of(Box{{0, 0, 0}, {30, 30, 30}}, {}, std::move(position), std::move(radius));
+  }();
+  EXPECT_GE(pauses_of(lattice, [](const Packing& p) { report(p); }), 2 * 4 + 2);
 }
 
 TEST(Packing, says_so_if_obstacles_fill_the_region) {

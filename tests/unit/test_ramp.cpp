@@ -38,6 +38,17 @@ TEST(ramp, a_velocity_sets_in_over_the_rise_and_then_stays) {
   EXPECT_EQ(sudden.at(0).velocity, 3);
 }
 
+TEST(ramp, how_far_it_ever_gets) {
+  const Real infinite = std::numeric_limits<Real>::infinity();
+  EXPECT_EQ((SmoothRamp{3, 2}.reach()), infinite);
+  EXPECT_EQ((SmoothRamp{0, 2}.reach()), 0);
+  EXPECT_EQ(VelocityTable({{0, 1}, {2, 1}}).reach(), infinite);
+  EXPECT_EQ(VelocityTable({{0, 0}}).reach(), 0);
+  EXPECT_EQ(VelocityTable({{0, 1}, {2, 1}, {3, 0}}).reach(), 2.5);
+  // 1 forth and 3 beyond the start on the way back: the turning point lies between rows
+  EXPECT_EQ(VelocityTable({{0, 2}, {2, -2}, {3, -2}, {4, 0}}).reach(), 1 + 3);
+}
+
 TEST(ramp, a_table_is_integrated_exactly) {
   const VelocityTable table({{1, 0}, {3, 4}, {4, -2}});
   EXPECT_EQ(table.at(0).displacement, 0);

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <cmath>
 #include <sstream>
 
@@ -347,12 +349,63 @@ TEST(Recorder, what_could_not_be_made_one_file_can_be_once_there_is_room) {
   EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100, 200));
 }
 
-TEST(Recorder, a_damaged_frame_is_named_when_the_run_is_continued) {
+TEST(Recorder, a_damaged_frame_is_kept_aside_and_the_run_goes_on) {
   const Scratch scratch;
   Recording run(scratch / "out");
-  run.frame(0);
+  for (const int step : {0, 100}) run.frame(step);
   write_text(folder_of(run, "frames/000000000000.h5"), "not a frame");
-  const auto said = message_of<MachineFailure>([&] { run.go_on_from(100); });
-  EXPECT_THAT(said, HasSubstr("frames/000000000000.h5"));
-  EXPECT_THAT(said, HasSubstr("Remove"));
+  run.go_on_from(100);
+  EXPECT_THAT(run.recorder.notes(), ElementsAre(HasSubstr("frames/000000000000.h5 is damaged")));
+  EXPECT_EQ(text_of(folder_of(run, "frames/000000000000.h5.damaged")), "not a frame");
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(100));
+}
+
+TEST(Recorder, a_damaged_record_is_kept_aside_and_a_new_one_begun) {
+  for (const bool finished : {false, true}) {
+    const Scratch scratch;
+    Recording run(scratch / "out");
+    for (const int step : {0, 100}) run.frame(step);
+    std::string reason;
+    if (finished) {
+      ASSERT_TRUE(run.recorder.consolidate(run.domain, reason));
+    }
+    fs::resize_file(run.folder.record(), 1500);
+    const std::string damaged = text_of(run.folder.record());
+    run.go_on_from(100);
+    EXPECT_THAT(run.recorder.notes(), ElementsAre(HasSubstr("run.h5 is damaged")));
+    EXPECT_EQ(text_of(folder_of(run, "run.h5.damaged")), damaged);
+    if (finished)
+      EXPECT_THAT(steps_of(run.folder.record()), ElementsAre());
+    else
+      EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100));
+    run.frame(200);
+    ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+    EXPECT_EQ(steps_of(run.folder.record()).back(), 200);
+  }
+}
+
+TEST(Recorder, files_of_others_among_the_frames_are_neither_taken_nor_removed) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  for (const int step : {0, 100}) run.frame(step);
+  for (const char* name : {"frames/000000000050.h5", "frames/000000000300.h5", "frames/consolidated-7.h5"}) write_text(folder_of(run, name), "mine");
+  run.go_on_from(100);
+  EXPECT_TRUE(run.recorder.notes().empty());
+  std::string reason;
+  ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100));
+  for (const char* name : {"frames/000000000050.h5", "frames/000000000300.h5", "frames/consolidated-7.h5"}) EXPECT_EQ(text_of(folder_of(run, name)), "mine");
+}
+
+TEST(Recorder, a_record_leads_to_no_file_but_its_own_frames) {
+  const Scratch scratch;
+  Recording other(scratch / "other"), run(scratch / "out");
+  for (const int step : {0, 100}) run.frame(step), other.frame(step);
+  fs::remove(folder_of(run, "frames/000000000000.h5"));
+  fs::create_symlink(folder_of(other, "frames/000000000000.h5"), folder_of(run, "frames/000000000000.h5"));
+  fs::remove(folder_of(run, "frames/000000000100.h5"));
+  ASSERT_EQ(::mkfifo(folder_of(run, "frames/000000000100.h5").c_str(), 0600), 0);
+  const record::FrameReader reader(run.folder.record());
+  EXPECT_TRUE(reader.frames().empty());
+  EXPECT_EQ(reader.unreadable_frames(), 2);
 }

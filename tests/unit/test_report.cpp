@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -53,7 +54,7 @@ void make_specimen(Domain& domain) {
 }
 
 void record_frames(const fs::path& folder, Domain& domain) {
-  const RunFolder run = RunFolder::fresh(folder, false);
+  RunFolder run = RunFolder::fresh(folder, false);
   RunMeta meta;
   meta.name = "in the record";
   Recorder recorder = Recorder::fresh(run, meta, {}, domain);
@@ -83,6 +84,9 @@ class Report : public testing::Test {
           R"({"scene": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
       "elements": 12, "bonds": {"interface": 6}, "steps": 100, "time_step": 1e-5, "wall_seconds": 83,
       "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
+      "utilisation": {"fail.bond-stress": {"of": "interface", "mode": "axial-bending", "largest": 0.8731, "step": 80, "time": 8e-4,
+                      "bond": 3, "elements": [3, 9], "place": [0.003, 0, 0.0005]},
+                      "fail.bond-stress.2": {"of": "<i>", "mode": "axial", "largest": 0}},
       "packing": [{"density": 0.615, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
     write(folder / "resolved.xml", "<scene name=\"small\"><fill/></scene><script>alert(1)</script>");
     write(folder / "run.log", "first line\nlast line\n");
@@ -141,6 +145,13 @@ TEST_F(Report, pictures_say_at_which_loading_and_in_which_state_the_specimen_is)
 TEST_F(Report, the_ledger_names_its_residual) {
   make_run();
   EXPECT_THAT(page(), HasSubstr("Residual over the largest energy: <b>1.00 %</b> at the end, 1.00 % at most"));  // derived: (2 - 1.98) / 2
+}
+
+TEST_F(Report, says_how_near_to_breaking_the_run_came_and_where) {
+  make_run();
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<td>interface</td><td>axial-bending</td><td>0.8731</td><td>bond 3 between elements 3, 9, at (3, 0, 0.5) mm, step 80, 800 µs</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>&lt;i&gt;</td><td>axial</td><td>0</td><td>no bond was under load</td>"));
 }
 
 TEST_F(Report, breaks_and_packing_are_there) {
@@ -262,6 +273,57 @@ TEST_F(Report, an_interrupted_run_says_why_it_ended) {
   EXPECT_THAT(html, HasSubstr("badge interrupted"));
   EXPECT_THAT(html, HasSubstr("resume with"));
   EXPECT_THAT(html, HasSubstr("There are no curves"));
+}
+
+TEST_F(Report, one_bad_number_is_left_out_and_the_rest_is_drawn) {
+  make_run();
+  write(folder / "curves/force.csv",
+        "step [1],time [s],displacement [m],force [N]\n0,0,0,0\n50,5e-4,1e-4,nan\n60,6e-4,1.2e-4,1e308\n70,7e-4,1.4e-4,1e999\n100,1e-3,2e-4,60\n");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("In curves/force.csv, 3 numbers are infinite, undefined or too large to be drawn"));
+  EXPECT_THAT(html, HasSubstr(">60</text>"));  // the axis is that of what is drawn
+  EXPECT_THAT(html, Not(HasSubstr("10³⁰⁸")));
+  EXPECT_THAT(html, HasSubstr("1 bond broke"));
+}
+
+TEST_F(Report, an_element_without_a_place_does_not_cost_the_picture) {
+  for (const double bad : {std::nan(""), HUGE_VAL, 1e308, 1e30, 50.0}) {
+    fs::remove_all(folder);
+    {
+      Domain domain;
+      make_specimen(domain);
+      domain.elements().column("position").view<Vec3>().set(3, Vec3(0, bad, 0));
+      record_frames(folder, domain);
+    }
+    const std::string html = page();
+    EXPECT_THAT(html, HasSubstr("In the frame of step 100, 1 element has no place or size that can be drawn")) << bad;
+    EXPECT_THAT(html, HasSubstr("<img src=\"data:image/png;base64,iVBORw0KGgo")) << bad;
+    EXPECT_THAT(html, HasSubstr("<b>1 mm</b></i>")) << bad;  // the scale bar of the specimen without it
+  }
+}
+
+TEST_F(Report, what_cannot_be_read_costs_its_own_part_only) {
+  make_run();
+  write(folder / "summary.json", std::string(1000000, '['));
+  write(folder / "curves/force.json", std::string(1000000, '['));
+  fs::remove(folder / "run.log");
+  fs::create_symlink("/etc/passwd", folder / "run.log");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("summary.json is not readable as JSON"));
+  EXPECT_THAT(html, HasSubstr("force.json is not readable as JSON"));
+  EXPECT_THAT(html, HasSubstr("it is a link"));
+  EXPECT_THAT(html, Not(HasSubstr("root:")));
+  EXPECT_THAT(html, HasSubstr("1 bond broke"));
+}
+
+TEST_F(Report, a_page_of_somebody_else_is_left_alone) {
+  make_run();
+  write(folder / "report.html", "mine");
+  EXPECT_THROW(write_report(folder), DeckFailure);
+  EXPECT_EQ(read(folder / "report.html"), "mine");
+  fs::remove(folder / "report.html");
+  write_report(folder);
+  EXPECT_NO_THROW(write_report(folder));
 }
 
 TEST_F(Report, a_folder_that_is_no_run_is_refused) {

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/base/text.hpp"
+#include "core/deck/read.hpp"
 #include "core/loop/run.hpp"
 #include "tests/support/scratch.hpp"
 
@@ -20,13 +25,29 @@ constexpr const char* endless = R"(<scene>
   <move><verlet until="1000000000000"/></move>
 </scene>)";
 
-RunFigures run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options) {
+// The last to look: kills the process at one of its looks.
+class Tripwire final : public Watcher {
+ public:
+  static constexpr const char* about = "Kills the process";
+  Param<std::int64_t> look_number{this, {.name = "look", .doc = "At which look, counted from 1"}};
+  static inline bool is_armed = false;
+
+  void look(Sight&) override {
+    if (is_armed && ++looks_ == *look_number) ::kill(::getpid(), SIGKILL);
+  }
+
+ private:
+  std::int64_t looks_ = 0;
+};
+
+RunFigures run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options, const std::vector<Override>& overrides = {}) {
   Complaints complaints;
-  const auto read = read_deck(deck.string(), {}, complaints);
-  const Catalogue catalogue = Catalogue::open({});
+  const auto read = read_deck(deck.string(), overrides, complaints);
+  Catalogue catalogue = Catalogue::open({});
+  catalogue.add({"no library", "", {entry<Tripwire>("tripwire")}});
   const auto scene = Scene::assemble(*read, catalogue, complaints);
   complaints.throw_if_any();
-  RunFolder folder = RunFolder::fresh(out, false);
+  RunFolder folder = options.resume ? RunFolder::resume(out) : RunFolder::fresh(out, false);
   Run run(*scene, catalogue, folder, options);
   run.all();
   return run.figures();
@@ -56,6 +77,64 @@ TEST(Run, does_not_count_checkpoints_among_the_seconds_of_its_loop) {
   const RunFigures figures = run_deck(scratch / "deck.xml", scratch / "out", options);
   EXPECT_GT(figures.loop_seconds, 0);
   EXPECT_LT(figures.loop_seconds, 0.2 * figures.wall_seconds);
+}
+
+// Both watchers look at the last step of the first stage and at the same step where the second begins; a kill then comes behind the
+// checkpoint of that step.
+constexpr const char* two_stages = R"(<scene>
+  <parameter name="look" value="1000"/>
+  <fill>
+    <element set="left" at="0 0 0 mm" radius="1 mm" density="2000 kg/m^3"/>
+    <element set="right" at="2 0 0 mm" radius="1 mm" density="2000 kg/m^3"/>
+  </fill>
+  <load><hold set="left"/><pull set="right" axis="x" velocity="1 m/s"/></load>
+  <move><verlet time-step="1 us"/></move>
+  <watch>
+    <force-curve of="right" axis="x" every="5"/>
+    <snapshot fields="axial-force position velocity" every="10"/>
+  </watch>
+  <stage name="one" until="30">
+    <bond><spring name="soft" between="left right" young="1 MPa"/></bond>
+    <watch><snapshot fields="force" every="10"/><tripwire look="1000" every="10"/></watch>
+  </stage>
+  <stage name="two" until="30">
+    <bond><spring name="hard" between="left right" young="10 MPa" gap="0.1"/></bond>
+    <watch><snapshot fields="all" every="15"/><force-curve name="late" of="right" axis="x" every="10"/><tripwire look="${look}" every="10"/></watch>
+  </stage>
+</scene>)";
+
+// Whether work, in a process of its own, ends by SIGKILL.
+template <class Work>
+bool is_killed(const Work& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    work();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
+TEST(Run, that_was_killed_where_a_stage_begins_has_no_row_twice_and_frames_as_without_the_kill) {
+  const Scratch scratch;
+  testing::write_text(scratch / "deck.xml", two_stages);
+  for (const char* look : {"1", "2", "4"}) {  // at the start of the second stage, within it, and at its end
+    const auto whole = scratch / (std::string("whole") + look), killed = scratch / (std::string("killed") + look);
+    RunOptions options;
+    run_deck(scratch / "deck.xml", whole, options, {{"look", look}});
+    const auto rows = split(testing::text_of(whole / "curves/force.csv"), '\n');
+    EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const std::string& row) { return row.starts_with("30,"); }), 2);
+    ASSERT_TRUE(is_killed([&] {
+      Tripwire::is_armed = true;
+      run_deck(scratch / "deck.xml", killed, options, {{"look", look}});
+    }));
+    options.resume = true;
+    run_deck(scratch / "deck.xml", killed, options, {{"look", look}});
+    const std::string compare = std::string("cd ") + BEADWORK_SOURCE_DIR "/tests/support && /usr/bin/python3 -c 'import pathlib, sys, same_run; " +
+                                "odd = same_run.differences(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])); sys.exit(str(odd) if odd else 0)' ";
+    EXPECT_EQ(std::system((compare + whole.string() + " " + killed.string()).c_str()), 0) << "look " << look;
+  }
 }
 
 }  // namespace

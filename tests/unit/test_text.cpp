@@ -87,5 +87,13 @@ TEST(Text, the_hash_is_sha_256) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
+TEST(Text, is_quoted_for_a_shell_where_it_has_to_be) {
+  EXPECT_EQ(shell_quoted("a/b-c_1.xml"), "a/b-c_1.xml");
+  EXPECT_EQ(shell_quoted("notch=0.8 mm"), "'notch=0.8 mm'");
+  EXPECT_EQ(shell_quoted("it's $HOME;\n"), "'it'\\''s $HOME;\n'");
+  EXPECT_EQ(shell_quoted(""), "''");
+  EXPECT_EQ(shell_quoted("~"), "'~'");
+}
+
 }  // namespace
 }  // namespace beadwork

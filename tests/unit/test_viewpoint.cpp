@@ -76,7 +76,7 @@ TEST(ColorScale, splinters_do_not_make_all_others_alike) {
   values.front() = std::nan("");
   const ColorScale scale = scale_over(values);
   EXPECT_LT(scale.high, 1001);
-  EXPECT_TRUE(scale.cut);
+  EXPECT_TRUE(scale.above);
   EXPECT_EQ(css(scale(1e30)), css(scale(scale.high)));
   EXPECT_NE(css(scale(std::nan(""))), css(scale(scale.low)));
 }

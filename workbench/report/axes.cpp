@@ -42,6 +42,7 @@ std::vector<double> ticks(double from, double to, int wanted) {
       step = nice * power;
       break;
     }
+  if (!(std::abs(from / step) < 1e15)) return {from};  // no room between neighbouring numbers
   std::vector<double> out;
   for (auto k = static_cast<std::int64_t>(std::ceil(from / step - 1e-9));
        static_cast<double>(k) * step <= to + 1e-9 * step; ++k)

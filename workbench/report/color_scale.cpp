@@ -43,13 +43,14 @@ ColorScale scale_over(std::vector<Real> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
   const auto skipped = static_cast<std::size_t>(left_out * static_cast<Real>(values.size()));
-  ColorScale scale{values[skipped], values[values.size() - 1 - skipped], false};
-  if (scale.constant()) scale = {values.front(), values.back(), false};  // a field of few values: show these
+  ColorScale scale{values[skipped], values[values.size() - 1 - skipped]};
+  if (scale.constant()) scale = {values.front(), values.back()};  // a field of few values: show these
   if (scale.diverging()) {
     scale.high = std::max(-scale.low, scale.high);
     scale.low = -scale.high;
   }
-  scale.cut = values.front() < scale.low || values.back() > scale.high;
+  scale.below = values.front() < scale.low;
+  scale.above = values.back() > scale.high;
   return scale;
 }
 

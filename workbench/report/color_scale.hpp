@@ -10,7 +10,7 @@ namespace beadwork::report {
 
 struct ColorScale {
   Real low = 0, high = 0;
-  bool cut = false;  ///< some values lie beyond low and high, and have the colour of the end
+  bool below = false, above = false;  ///< some values lie beyond low, or high, and have the colour of that end
 
   /// Two colours that part at zero where both signs occur, else dark to light. Both are told apart by lightness too.
   bool diverging() const { return low < 0 && high > 0; }

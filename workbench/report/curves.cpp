@@ -171,6 +171,37 @@ std::string loading_at(const Run& run, const record::FrameHead& head) {
   return "";
 }
 
+std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of_runs) {
+  const Curve& model = *of_runs.front().second;  // says what is drawn, and how
+  const Column& x = *abscissa(model);
+  std::string out;
+  for (const Column* y : ordinates(model, &x)) {
+    double most_x = 0, most_y = 0;
+    std::vector<std::pair<std::string, std::pair<const Column*, const Column*>>> lines;
+    for (const auto& [label, curve] : of_runs) {
+      const Column *own_x = curve->table.find(x.name), *own_y = curve->table.find(y->name);
+      if (!own_x || !own_y || own_x->unit != x.unit || own_y->unit != y->unit) continue;
+      lines.push_back({label, {own_x, own_y}});
+      most_x = std::max(most_x, largest(own_x->values));
+      most_y = std::max(most_y, largest(own_y->values));
+    }
+    const Scale sx = scale_for(model, "x", x.unit, most_x), sy = scale_for(model, "y", y->unit, most_y);
+    Chart chart;
+    chart.title = text_of(model.sidecar, "title", spaced(model.name)) + ": " + y->name;
+    chart.x_name = text_of(model.sidecar, "x_label", x.name);
+    chart.x_unit = sx.unit == "1" ? "" : sx.unit;
+    chart.x_label = with_unit(chart.x_name, sx.unit);
+    chart.y_label = with_unit(y->name, sy.unit);
+    for (const auto& [label, line] : lines) {
+      const int number = static_cast<int>(chart.series.size());
+      chart.series.push_back({label, scaled(line.first->values, sx.factor), scaled(line.second->values, sy.factor), number % colors,
+                              number / colors % 2 ? Stroke::dashed : Stroke::solid});
+    }
+    out += figure(chart);
+  }
+  return out;
+}
+
 std::string curves(const Run& run, const std::vector<record::FrameHead>& pictured) {
   std::string body;
   for (const Curve& curve : run.curves)

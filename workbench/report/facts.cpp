@@ -10,6 +10,7 @@
 #include "core/loop/json_text.hpp"
 #include "workbench/report/chart.hpp"
 #include "workbench/report/sections.hpp"
+#include "workbench/report/table.hpp"
 #include "workbench/report/text.hpp"
 
 namespace beadwork::report {
@@ -55,6 +56,21 @@ void add_rows(std::string& out, const Json& object, const std::string& before, c
     else
       out += fmt::format("<tr><th>{}</th><td>{}</td></tr>", escaped(name), shown(key, value, unit));
   }
+}
+
+/// Takes the breaks out whose time or energy is no number; returns how many.
+std::size_t leave_out_odd(record::Breaks& log) {
+  const auto odd = [&](std::size_t i) { return !(std::abs(log.time[i]) <= largest_drawn) || (i < log.energy.size() && !(std::abs(log.energy[i]) <= largest_drawn)); };
+  record::Breaks sound;
+  for (std::size_t i = 0; i < log.time.size(); ++i) {
+    if (odd(i)) continue;
+    sound.time.push_back(log.time[i]);
+    sound.mode.push_back(log.mode[i]);
+    if (i < log.energy.size()) sound.energy.push_back(log.energy[i]);
+  }
+  const std::size_t left_out = log.time.size() - sound.time.size();
+  if (left_out > 0) log = std::move(sound);
+  return left_out;
 }
 
 std::string breaks_over_time(const record::Breaks& log, double end) {
@@ -106,8 +122,8 @@ std::string facts_table(const Json& object, const std::string& unit_of_numbers) 
 std::string facts(const Run& run) {
   static constexpr std::array<const char*, 7> headline = {
       "elements", "bonds", "steps", "time_step", "wall_seconds", "bond_updates_per_second", "threads"};
-  static constexpr std::array<const char*, 6> elsewhere = {"status", "exit_reason", "scene",
-                                                           "energy", "breaks",      "packing"};
+  static constexpr std::array<const char*, 7> elsewhere = {"status", "exit_reason", "scene",
+                                                           "energy", "breaks",      "packing", "utilisation"};
   std::string tiles;
   for (const char* key : headline) {
     const auto value = run.summary.find(key);
@@ -148,6 +164,8 @@ std::string breaks(const Run& run) {
   } catch (const std::exception& problem) {
     table += "<p class=\"note\">The log of breaks cannot be read: " + escaped(problem.what()) + ".</p>";
   }
+  if (const auto odd = static_cast<std::int64_t>(leave_out_odd(log)); odd > 0)
+    table += "<p class=\"note\">Left out: " + plural(odd, "break") + " whose time or energy is no number, infinite or too large.</p>";
   if (table.empty() && !log.time.empty()) {
     Json by_mode = Json::object();
     for (const std::string& mode : log.mode) by_mode[mode] = by_mode.value(mode, 0) + 1;

@@ -61,8 +61,8 @@ std::string title_of(const Found& field) {
 
 std::string bar(const ColorScale& scale, const Scale& unit) {
   const auto label = [&](Real value) { return number(value * unit.factor); };
-  return fmt::format("<div class=\"colorbar\"><span>{}{}</span><i style=\"background:{}\"></i><span>{}{}{}</span></div>", scale.cut ? "≤ " : "",
-                     label(scale.low), scale.css(), scale.cut ? "≥ " : "", label(scale.high), unit.unit == "1" || unit.unit.empty() ? "" : " " + unit.unit);
+  return fmt::format("<div class=\"colorbar\"><span>{}{}</span><i style=\"background:{}\"></i><span>{}{}{}</span></div>", scale.below ? "≤ " : "",
+                     label(scale.low), scale.css(), scale.above ? "≥ " : "", label(scale.high), unit.unit == "1" || unit.unit.empty() ? "" : " " + unit.unit);
 }
 
 std::string not_numbers(std::size_t many) { return plural(static_cast<std::int64_t>(many), "value") + " not a number"; }

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "core/loop/json_text.hpp"
 #include "workbench/report/chart.hpp"
 #include "workbench/report/sections.hpp"
+#include "workbench/report/table.hpp"
 #include "workbench/report/text.hpp"
 
 namespace beadwork::report {
@@ -56,7 +59,7 @@ std::string cell(const Json& value, const std::string& unit) {
   if (value.is_number_integer() && unit.empty()) return count(value.get<std::int64_t>());
   if (value.is_number()) return in_unit(value.get<double>(), unit);
   if (value.is_string()) return escaped(value.get<std::string>());
-  if (!value.is_array()) return escaped(value.dump());
+  if (!value.is_array()) return escaped(json_text(value));
   std::string list;
   for (const Json& entry : value) list += (list.empty() ? "" : ", ") + cell(entry, unit);
   return list;
@@ -81,6 +84,7 @@ std::vector<double> reals_in(const Json& object, const char* key) {
   if (found == object.end() || !found->is_array()) return out;
   for (const Json& value : *found)
     if (value.is_number()) out.push_back(value.get<double>());
+  if (std::any_of(out.begin(), out.end(), [](double v) { return !(std::abs(v) <= largest_drawn); })) out.clear();
   return out;
 }
 

@@ -106,6 +106,7 @@ svg .probes text { fill: var(--ink); paint-order: stroke; stroke: var(--card); s
 .scale { position: absolute; left: 0; bottom: 11px; height: 4px; border: solid var(--soft); border-width: 0 1.3px 1.3px; }
 .scale b { position: absolute; left: calc(100% + 7px); top: -9px; font: 12px/1.4 system-ui, sans-serif; color: var(--soft); white-space: nowrap; }
 .field { break-inside: avoid; border-top: 1px solid var(--rule); padding-top: 10px; margin-bottom: 14px; }
+.field figcaption b { display: inline-block; }
 .field figcaption b::first-letter { text-transform: uppercase; }
 .colorbar { display: inline-flex; align-items: center; gap: 8px; margin-left: 18px; color: var(--soft); font-size: 13px; }
 .colorbar i { width: 180px; height: 11px; border-radius: 3px; print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -98,12 +98,24 @@ std::vector<record::Frame> read_frames(Run& run, const std::vector<record::Frame
   for (const record::FrameHead& head : heads) {
     try {
       frames.push_back(run.recorded->read(head));
+      if (const auto odd = static_cast<std::int64_t>(leave_out_odd(frames.back())); odd > 0)
+        run.notes.push_back("In the frame of step " + count(head.step) + ", " + plural(odd, "element") + (odd == 1 ? " has" : " have") +
+                            " no place or size that can be drawn (no number, infinite, or far outside), and " + (odd == 1 ? "was" : "were") + " left out.");
     } catch (const std::exception& problem) {
       run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() +
                           ").");
     }
   }
   return frames;
+}
+
+std::map<std::string, std::vector<std::int64_t>> sets_of(Run& run) {
+  try {
+    return run.recorded->sets();
+  } catch (const std::exception& problem) {
+    run.notes.push_back("The sets of elements cannot be read, and share one colour (" + std::string(problem.what()) + ").");
+    return {};
+  }
 }
 
 }  // namespace
@@ -127,12 +139,14 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, c
     return "";
   }
   std::vector<record::Frame> frames = read_frames(run, pictured);
+  const auto said = run.notes;  // of the first frame all has been said if it is among them
   std::vector<record::Frame> first = read_frames(run, {run.recorded->frames().front()});
+  if (pictured.front().name == run.recorded->frames().front().name) run.notes = said;
   std::erase_if(frames, [](const record::Frame& f) { return f.position.empty(); });
   if (frames.empty()) return "";
   const record::Frame rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
   for (record::Frame& frame : frames) complete_displacement(frame, rest);
-  const Stage stage = set_up(rest, frames, run.recorded->sets(), wanted.empty() ? wanted_view(frames) : wanted);
+  const Stage stage = set_up(rest, frames, sets_of(run), wanted.empty() ? wanted_view(frames) : wanted);
   const bool bonds =
       std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
   const double shape = stage.views.front().camera.width / stage.views.front().camera.height;

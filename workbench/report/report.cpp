@@ -1,6 +1,6 @@
 #include "workbench/report/report.hpp"
 
-#include "core/io/file.hpp"
+#include "core/io/manifest.hpp"
 #include "workbench/report/page_style.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -8,13 +8,12 @@
 namespace beadwork {
 namespace report {
 
-namespace {
-
-/// The class decides the badge's colour; a status that nobody foresaw is shown as it is, in grey.
 std::string badge(const std::string& status) {
   const bool known = status == "done" || status == "failed" || status == "interrupted";
   return "<span class=\"badge " + std::string(known ? status : "other") + "\">" + escaped(status) + "</span>";
 }
+
+namespace {
 
 std::string header(const Run& run) {
   std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status);
@@ -29,9 +28,11 @@ std::string notes(const Run& run) {
   return items.empty() ? "" : "<section class=\"notes\"><ul>" + items + "</ul></section>\n";
 }
 
-/// Replaces @name@ in the template. What is put in is not searched again, so a deck may hold @title@.
-std::string filled(std::string_view page, const std::string& title, const std::string& head,
-                   const std::string& body) {
+}  // namespace
+
+// Replaces @name@ in the template. What is put in is not searched again, so a deck may hold @title@.
+std::string page_with(const std::string& title, const std::string& head, const std::string& body) {
+  std::string_view page = page_template;
   std::string out;
   while (!page.empty()) {
     const auto start = page.find('@');
@@ -48,14 +49,31 @@ std::string filled(std::string_view page, const std::string& title, const std::s
   return out;
 }
 
+namespace {
+
+/// A part of the page; where it cannot be made, the page says so and has the others.
+template <class Make>
+std::string attempt(Run& run, const std::string& what, const Make& make) {
+  try {
+    return make();
+  } catch (const std::exception& problem) {
+    run.notes.push_back(what + " cannot be shown (" + problem.what() + ").");
+    return "";
+  }
+}
+
 std::string page_of(Run& run, const std::string& view) {
   const std::vector<record::FrameHead> shown =
       run.recorded ? chosen(run.recorded->frames()) : std::vector<record::FrameHead>{};
-  const std::string seen = pictures(run, shown, view);  // first: it may add notes
-  std::string body =
-      facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
-  body = notes(run) + body;
-  return filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body);
+  std::string body = attempt(run, "The facts", [&] { return facts(run); });
+  body += attempt(run, "The curves", [&] { return curves(run, shown); });
+  body += attempt(run, "The pictures", [&] { return pictures(run, shown, view); });
+  body += attempt(run, "The energy ledger", [&] { return ledger(run); });
+  body += attempt(run, "The utilisation", [&] { return utilisation(run); });
+  body += attempt(run, "The breaks", [&] { return breaks(run); });
+  body += attempt(run, "The packing", [&] { return packing(run); });
+  body += attempt(run, "Deck and log", [&] { return deck_and_log(run); });
+  return page_with(escaped(run.scene) + " – Beadwork", header(run), notes(run) + body);
 }
 
 }  // namespace
@@ -64,6 +82,7 @@ std::string page_of(Run& run, const std::string& view) {
 std::string write_report(const std::filesystem::path& run_folder, const std::string& view) {
   report::Run run = report::open_run(run_folder);
   const std::filesystem::path file = run_folder / "report.html";
+  if (auto list = Manifest::read(run_folder)) list->claim("report.html");
   write_atomically(file, report::page_of(run, view));
   return file.string();
 }

@@ -17,4 +17,9 @@ std::string write_report(const std::filesystem::path& run_folder, const std::str
 void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file,
                    std::size_t frames = 3);
 
+/// The same of a batch: its table, and the curves of its runs laid over one another.
+std::string write_batch_report(const std::filesystem::path& batch_folder);
+/// Whether a batch has been run there.
+bool is_batch(const std::filesystem::path& folder);
+
 }  // namespace beadwork

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/base/failure.hpp"
+#include "core/io/file.hpp"
+#include "core/loop/bounded_json.hpp"
 #include "core/loop/json_text.hpp"
 #include "workbench/report/text.hpp"
 
@@ -14,19 +16,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uintmax_t longest_text = std::uintmax_t{1} << 26;
+constexpr std::uintmax_t longest_curve = std::uintmax_t{1} << 31;
+
+bool stands(const fs::path& file) {
+  std::error_code error;
+  return fs::exists(fs::symlink_status(file, error));
+}
+
+/// Empty where there is no such file; where it cannot be read, that is noted.
+std::string text_of_file(const fs::path& file, std::uintmax_t longest, std::vector<std::string>& notes) {
+  if (!stands(file)) return "";
+  try {
+    return beadwork::read_text(file, longest);
+  } catch (const MachineFailure& problem) {
+    notes.push_back("It was left out what " + file.filename().string() + " says: " + problem.what() + ".");
+    return "";
+  }
+}
+
 Json read_json(const fs::path& file, std::vector<std::string>& notes) {
-  if (!fs::exists(file)) return Json::object();
-  Json json = Json::parse(read_text(file), nullptr, false);
+  const std::string text = text_of_file(file, longest_text, notes);
+  if (text.empty()) return Json::object();
+  Json json = bounded_json(text);
   if (json.is_object()) return json;
   notes.push_back(file.filename().string() + " is not readable as JSON and was left out.");
   return Json::object();
 }
 
-std::vector<fs::path> files_ending(const fs::path& folder, const std::string& ending) {
+std::vector<fs::path> files_ending(const fs::path& folder, const std::string& ending, std::vector<std::string>& notes) {
   std::vector<fs::path> files;
-  if (!fs::is_directory(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().extension() == ending) files.push_back(entry.path());
+  std::error_code error;
+  const auto status = fs::symlink_status(folder, error);
+  if (fs::is_symlink(status)) notes.push_back(folder.filename().string() + " is a link and was not followed.");
+  if (!fs::is_directory(status)) return files;
+  for (auto it = fs::directory_iterator(folder, error); !error && it != fs::directory_iterator(); it.increment(error))
+    if (it->path().extension() == ending) files.push_back(it->path());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -35,6 +60,9 @@ void note_dropped(const Table& table, const std::string& name, std::vector<std::
   if (table.dropped_rows > 0)
     notes.push_back("In curves/" + name + ", " + plural(table.dropped_rows, "row") +
                     (table.dropped_rows == 1 ? " was" : " were") + " cut off or not numbers, and left out.");
+  if (table.odd_numbers > 0)
+    notes.push_back("In curves/" + name + ", " + plural(table.odd_numbers, "number") +
+                    (table.odd_numbers == 1 ? " is" : " are") + " infinite, undefined or too large to be drawn: gaps in the curve.");
 }
 
 /// A reference is named by its file, or by {"file": ..., "label": ...}.
@@ -44,7 +72,7 @@ void read_references(Curve& curve, const fs::path& folder, std::vector<std::stri
   for (const Json& entry : *listed) {
     const std::string file = entry.is_string() ? entry.get<std::string>() : text_of(entry, "file");
     const fs::path path = folder / "references" / fs::path(file).filename();
-    Reference reference{text_of(entry, "label"), read_table(path, false)};
+    Reference reference{text_of(entry, "label"), parse_table(text_of_file(path, longest_text, notes), false)};
     if (reference.table.columns.size() < 2 || reference.table.rows() == 0) {
       notes.push_back("The reference curves/references/" + path.filename().string() +
                       " is missing or empty.");
@@ -69,10 +97,10 @@ double place_of(const Curve& curve) {
 
 void read_curves(Run& run) {
   const fs::path folder = run.folder / "curves";
-  for (const fs::path& file : files_ending(folder, ".csv")) {
+  for (const fs::path& file : files_ending(folder, ".csv", run.notes)) {
     Curve curve;
     curve.name = file.stem().string();
-    curve.table = read_table(file, true);
+    curve.table = parse_table(text_of_file(file, longest_curve, run.notes), true);
     note_dropped(curve.table, file.filename().string(), run.notes);
     curve.sidecar = read_json(fs::path(file).replace_extension(".json"), run.notes);
     if (curve.table.rows() == 0) {
@@ -90,7 +118,7 @@ void read_curves(Run& run) {
 
 void read_record(Run& run) {
   const fs::path file = run.folder / "run.h5";
-  if (!fs::exists(file)) {
+  if (!stands(file)) {
     run.notes.push_back("There is no run.h5, so there are no pictures of the specimen and no log of breaks.");
     return;
   }
@@ -115,7 +143,7 @@ void complete_from_record(Run& run) {
   if (run.scene.empty()) run.scene = meta["name"];
   if (run.deck.empty()) run.deck = meta["resolved"];
   if (run.summary.contains("packing")) return;
-  Json packing = Json::parse(meta["packing"], nullptr, false);
+  Json packing = bounded_json(meta["packing"]);
   if (packing.is_structured() && !packing.empty()) run.summary["packing"] = std::move(packing);
 }
 
@@ -142,6 +170,15 @@ void read_status(Run& run) {
       "had written.");
 }
 
+/// What the run itself said of its record.
+void read_notes(Run& run) {
+  const auto said = run.summary.find("notes");
+  if (said == run.summary.end() || !said->is_array()) return;
+  for (const Json& note : *said)
+    if (note.is_string()) run.notes.push_back(note.get<std::string>() + ".");
+  run.summary.erase(said);
+}
+
 }  // namespace
 
 std::string text_of(const Json& json, const std::string& key, const std::string& otherwise) {
@@ -154,23 +191,28 @@ std::string text_of(const Json& json, const std::string& key, const std::string&
 Run open_run(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
-  const auto written = {"summary.json", "resolved.xml", "run.log", "curves", "run.h5"};
+  const auto written = {"summary.json", "resolved.xml", "run.log", "run.h5"};
   if (std::none_of(written.begin(), written.end(),
-                   [&](const char* name) { return fs::exists(folder / name); }))
+                   [&](const char* name) { return stands(folder / name); }))
     throw MachineFailure(
         "'" + folder.string() +
-        "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, curves, run.h5");
+        "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, run.h5");
   Run run;
   run.folder = folder;
   run.summary = read_json(folder / "summary.json", run.notes);
-  run.deck = read_text(folder / "resolved.xml");
-  run.log = read_text(folder / "run.log");
+  run.deck = text_of_file(folder / "resolved.xml", longest_text, run.notes);
+  run.log = text_of_file(folder / "run.log", longest_text, run.notes);
   read_status(run);
+  read_notes(run);
   run.scene = text_of(run.summary, "scene", text_of(run.summary, "name"));
   if (run.scene.empty()) run.scene = name_in_deck(run.deck);
   read_curves(run);
   read_record(run);
-  complete_from_record(run);
+  try {
+    complete_from_record(run);
+  } catch (const std::exception& problem) {
+    run.notes.push_back("What run.h5 says of the run cannot be read (" + std::string(problem.what()) + ").");
+  }
   if (run.scene.empty()) run.scene = fs::weakly_canonical(folder).filename().string();
   if (run.deck.empty()) run.notes.emplace_back("There is no resolved.xml, so the deck is not shown.");
   if (run.log.empty()) run.notes.emplace_back("There is no run.log, or it is empty.");

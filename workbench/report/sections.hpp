@@ -11,9 +11,13 @@ namespace beadwork::report {
 std::string facts(const Run&);
 std::string curves(const Run&, const std::vector<record::FrameHead>& pictured);
 std::string ledger(const Run&);
+std::string utilisation(const Run&);
 std::string breaks(const Run&);
 std::string packing(const Run&);
 std::string deck_and_log(const Run&);
+
+/// The curves of one name of several runs, laid over one another in a chart for each unit. Each run has its label.
+std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of_runs);
 
 /// Pictures of the frames `pictured`, seen along the axis `wanted` (x, y, z; empty: as the frames say, or as shows most); what cannot
 /// be read is added to the run's notes.
@@ -31,6 +35,11 @@ std::string loading_at(const Run&, const record::FrameHead&);
 bool is_ledger(const Curve&);
 /// The row of the table nearest to the frame, by time or else by step.
 std::size_t row_at(const Table&, const record::FrameHead&);
+
+/// The whole page; title and texts are HTML already.
+std::string page_with(const std::string& title, const std::string& head, const std::string& body);
+/// Of a status: the class decides the badge's colour; one that nobody foresaw is shown as it is, in grey.
+std::string badge(const std::string& status);
 
 /// `<section id><h2>title</h2>body</section>`, or nothing if the body is empty.
 std::string section(const std::string& title, const std::string& body);

@@ -70,6 +70,10 @@ Image draw_field(const Stage&, const View&, const record::Frame&, const std::str
 /// Pixels for the view when the largest view of the stage is to fit into the given room: all have one scale.
 int width_in_pixels(const Stage&, const View&, int widest, int tallest);
 
+/// Takes what cannot be drawn out of a frame: elements whose place or size is no number, infinite or far outside of all others lose
+/// both, and values of fields that are too large become no numbers. Returns how many elements.
+std::size_t leave_out_odd(record::Frame&);
+
 /// Where a frame records positions only: displacements from those of the same elements in the first frame.
 void complete_displacement(record::Frame&, const record::Frame& first);
 

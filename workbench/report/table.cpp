@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string_view>
+
+#include "core/io/file.hpp"
 
 namespace beadwork::report {
 
@@ -42,9 +42,14 @@ std::optional<double> value_of(std::string_view cell) {
   if (cell.starts_with('+')) cell.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size()) return std::nullopt;
+  if (end != cell.data() + cell.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range)
+    return cell.find("e-") != std::string_view::npos ? 0 : std::numeric_limits<double>::infinity();
+  if (error != std::errc()) return std::nullopt;
   return value;
 }
+
+constexpr std::uintmax_t longest_text = std::uintmax_t{1} << 31;
 
 bool append_row(Table& table, std::string_view line) {
   const auto cells = cells_of(line);
@@ -53,7 +58,9 @@ bool append_row(Table& table, std::string_view line) {
   for (const auto cell : cells) {
     const auto value = value_of(cell);
     if (!value) return false;
-    row.push_back(*value);
+    const bool odd = !cell.empty() && !(std::abs(*value) <= largest_drawn);
+    table.odd_numbers += odd;
+    row.push_back(odd ? std::numeric_limits<double>::quiet_NaN() : *value);
   }
   for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
   return true;
@@ -85,15 +92,14 @@ Table parse_table(const std::string& text, bool growing) {
   return table;
 }
 
-Table read_table(const std::filesystem::path& file, bool growing) {
-  return parse_table(read_text(file), growing);
-}
+Table read_table(const std::filesystem::path& file, bool growing) { return parse_table(read_text(file), growing); }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
+  try {
+    return beadwork::read_text(file, longest_text);
+  } catch (const MachineFailure&) {
+    return "";
+  }
 }
 
 }  // namespace beadwork::report

@@ -16,6 +16,7 @@ struct Column {
 struct Table {
   std::vector<Column> columns;
   int dropped_rows = 0;  ///< rows that were cut off or held something other than numbers
+  int odd_numbers = 0;   ///< infinite, no number, or too large to be drawn: gaps, too
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
   const Column* find(const std::string& name) const;  ///< nullptr if there is none
@@ -26,7 +27,10 @@ struct Table {
 Table parse_table(const std::string& text, bool growing);
 Table read_table(const std::filesystem::path&, bool growing);
 
-/// The whole file; empty if it cannot be read.
+/// The whole file; empty if it is no regular file, or cannot be read.
 std::string read_text(const std::filesystem::path&);
+
+/// Numbers beyond it are no measure of anything, and their squares overflow.
+constexpr double largest_drawn = 1e150;
 
 }  // namespace beadwork::report

@@ -12,10 +12,10 @@ def steps(name):
     return [int(row[0]) for row in list(csv.reader(open(run / f"curves/{name}.csv", encoding="utf-8")))[1:]]
 
 
-assert steps("single") == [0, 100, 200, 250, 300, 700], steps("single")
+assert steps("single") == [0, 100, 200, 250, 300, 700, 900], steps("single")
 assert steps("both") == [0, 100, 300, 333, 600, 900], steps("both")
 with h5py.File(run / "run.h5") as file:
-    assert [int(step) for step in file["frames"]] == [100, 200], list(file["frames"])
+    assert [int(step) for step in file["frames"]] == [100, 200, 900], list(file["frames"])
     frame = file["frames/000000000100"]
     assert frame.attrs["picture"] == 1
     # derived: E A / L times 0.1 mm

@@ -1,0 +1,107 @@
+#include "core/io/manifest.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "core/base/text.hpp"
+
+namespace beadwork {
+
+namespace {
+
+using Path = std::filesystem::path;
+
+constexpr std::string_view signature = "beadwork: the files that a run made, format 1";
+constexpr std::uintmax_t longest = std::uintmax_t{1} << 30;
+
+bool is_plain_name(std::string_view name) {
+  return !name.empty() && name != "." && name != ".." && name.find('/') == std::string_view::npos &&
+         std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; });
+}
+
+// A run writes into its folder and one level below it. Whatever else a damaged list says names nothing.
+bool can_be_listed(std::string_view file) {
+  for (const std::string_view below : {"curves/", "frames/"})
+    if (file.starts_with(below)) return is_plain_name(file.substr(below.size()));
+  return is_plain_name(file) && file != Manifest::file_name;
+}
+
+// What a kill left of a last line is the beginning of a name, and may be that of another file.
+void drop_torn_line(int list, const Path& file) {
+  const off_t end = ::lseek(list, 0, SEEK_END);
+  off_t whole = end;
+  for (char last = 0; whole > 0; --whole) {
+    if (::pread(list, &last, 1, whole - 1) != 1) throw file_failure("read", file, errno);
+    if (last == '\n') break;
+  }
+  if (whole < end && ::ftruncate(list, whole) != 0) throw file_failure("write", file, errno);
+}
+
+bool stands(const Path& file) {
+  std::error_code error;
+  return std::filesystem::exists(std::filesystem::symlink_status(file, error));
+}
+
+}  // namespace
+
+std::optional<Manifest> Manifest::read(const Path& folder) {
+  if (!stands(folder / file_name)) return std::nullopt;
+  const std::string text = read_text(folder / file_name, longest);
+  std::vector<std::string> lines = split(text, '\n');
+  if (lines.front() != signature || lines.size() < 2) return std::nullopt;
+  lines.pop_back();  // empty, or torn by a kill: then its file was not made
+  Manifest manifest(folder);
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    if (can_be_listed(lines[k])) manifest.add(lines[k]);
+  return manifest;
+}
+
+Manifest Manifest::begin(const Path& folder, const std::vector<std::string>& files) {
+  Manifest manifest(folder);
+  std::string text = std::string(signature) + "\n";
+  for (const std::string& file : files) {
+    manifest.add(file);
+    text += file + "\n";
+  }
+  write_atomically(folder / file_name, text);
+  return manifest;
+}
+
+void Manifest::add(const std::string& file) {
+  if (known_.insert(file).second) files_.push_back(file);
+}
+
+void Manifest::refresh() {
+  if (const auto now = read(folder_))
+    for (const std::string& file : now->files_) add(file);
+}
+
+void Manifest::claim(const std::string& file) {
+  if (lists(file)) return;
+  const Path list = folder_ / file_name;
+  if (!can_be_listed(file)) throw DeckFailure(fmt::format("\"{}\" cannot be the name of a file of a run", file));
+  const bool there = stands(folder_ / file);
+  if (there) refresh();
+  if (lists(file)) return;
+  if (there)
+    throw DeckFailure(fmt::format("'{}' is there already, and no run made it: it is left alone. Rename it, or choose another name", (folder_ / file).string()));
+  if (!open_) {
+    open_ = open_regular(list, O_RDWR | O_APPEND, "write");
+    drop_torn_line(open_.number(), list);
+  }
+  const off_t end = ::lseek(open_.number(), 0, SEEK_END);
+  const std::string line = file + "\n";
+  int error = write_all(open_.number(), line.data(), line.size());
+  if (error == 0 && ::fdatasync(open_.number()) != 0 && errno != EINVAL) error = errno;
+  if (error != 0) {
+    if (end < 0 || ::ftruncate(open_.number(), end) != 0) errno = error;
+    throw file_failure("write", list, error);
+  }
+  add(file);
+}
+
+}  // namespace beadwork

@@ -1,0 +1,68 @@
+#include "core/loop/offered.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace beadwork {
+
+Offered::Offered(const Scene& scene) : scene_(scene) {
+  for (const auto& plugin : scene.plugins)
+    for (const FieldUse* use : plugin->uses()) {
+      if (use->verb() != Verb::writes || use->field().on != On::bonds) continue;
+      const BondTable* table = scene.domain->find_family(plugin->family());
+      if (!table) continue;
+      const Column* column = table->rows().find(use->field().name);
+      auto& columns = columns_[table];
+      if (column && !column->kept() && std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+    }
+}
+
+void Offered::begin_stage() {
+  begin_step();
+  for (const auto& [table, columns] : columns_)
+    for (const Column* column : columns) clear(*column, 0, table->size());
+}
+
+void Offered::begin_step() {
+  told_ = false;
+  judged_.clear();
+  with_utilisation_.clear();
+}
+
+Verdict Offered::judge(Failure& failure, const Domain& domain) {
+  const BondTable& table = *domain.find_family(failure.family());
+  if (with_utilisation_.insert(&table).second)
+    if (const Column* column = table.rows().find(failure.utilisation.field().name)) clear(*column, 0, table.size());
+  judged_.insert(&failure);
+  return failure.judge(domain, table);
+}
+
+void Offered::clear(const BondTable& table, Index row) const {
+  const auto found = columns_.find(&table);
+  if (found == columns_.end()) return;
+  for (const Column* column : found->second) clear(*column, row, row + 1);
+}
+
+// Columns of bonds lie plane by plane.
+void Offered::clear(const Column& column, Index begin, Index end) const {
+  const Type type = column.field().type;
+  for (int c = 0; c < components(type); ++c)
+    std::memset(column.base() + static_cast<std::size_t>(c) * column.plane() + static_cast<std::size_t>(begin) * column.stride(), 0,
+                static_cast<std::size_t>(end - begin) * component_bytes(type));
+}
+
+LoadsAside::LoadsAside(const Domain& domain) {
+  for (const char* name : {"force", "torque"})
+    if (const Column* column = domain.elements().find(name)) {
+      Kept kept{column->view<Vec3>(), {}};
+      for (Index row = 0; row < domain.size(); ++row) kept.sums.push_back(kept.view[row]);
+      kept_.push_back(std::move(kept));
+    }
+}
+
+LoadsAside::~LoadsAside() {
+  for (const Kept& kept : kept_)
+    for (std::size_t row = 0; row < kept.sums.size(); ++row) kept.view.set(static_cast<Index>(row), kept.sums[row]);
+}
+
+}  // namespace beadwork

@@ -1,0 +1,60 @@
+#pragma once
+// What bond laws and criteria offer of each bond: axial force, moments, opening, utilisation. It is found for the steps in which
+// somebody reads it, and is then that of the present state. A bond that is broken has nothing, nor has one whose law or criterion
+// does not stand in the stage.
+
+#include <map>
+#include <set>
+#include <vector>
+
+#include "core/loop/scene.hpp"
+
+namespace beadwork {
+
+class Offered {
+ public:
+  explicit Offered(const Scene& scene);
+
+  bool is_read_by(const Plugin& reader) const { return scene_.section_readers.contains(&reader); }
+  bool is_read() const { return !scene_.section_readers.empty(); }
+
+  /// A stage begins, perhaps with other laws and criteria.
+  void begin_stage();
+  /// The state has changed: nothing is told of the new one.
+  void begin_step();
+  /// The laws have told what they offer, with the forces or without them.
+  void note_told() { told_ = true; }
+  bool is_told() const { return told_; }
+  /// Has a criterion judge, and tell of utilisations, together with others of its family.
+  Verdict judge(Failure& failure, const Domain& domain);
+  bool is_judged(const Failure& failure) const { return judged_.contains(&failure); }
+  /// A bond has broken.
+  void clear(const BondTable& table, Index row) const;
+
+ private:
+  void clear(const Column& column, Index begin, Index end) const;
+
+  const Scene& scene_;
+  std::map<const BondTable*, std::vector<const Column*>> columns_;
+  bool told_ = false;
+  std::set<const Failure*> judged_;
+  std::set<const BondTable*> with_utilisation_;  ///< families of which a criterion has told at this step
+};
+
+/// Keeps the sums of forces and torques as they are while this lives, whoever adds to them or clears them.
+class LoadsAside {
+ public:
+  explicit LoadsAside(const Domain& domain);
+  LoadsAside(const LoadsAside&) = delete;
+  LoadsAside& operator=(const LoadsAside&) = delete;
+  ~LoadsAside();
+
+ private:
+  struct Kept {
+    View<Vec3> view;
+    std::vector<Vec3> sums;
+  };
+  std::vector<Kept> kept_;
+};
+
+}  // namespace beadwork

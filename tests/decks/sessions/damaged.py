@@ -1,0 +1,50 @@
+"""Usage: damaged.py RUN went-on | odd-states
+
+went-on: the run went on with a new record, and its summary says so.
+odd-states: a checkpoint whose check sum fits and whose numbers do not is refused, and all is left as it was."""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+
+sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).parents[2] / "damaged"))
+from corpus import edit_checkpoint
+
+run = Path(sys.argv[1])
+
+
+def went_on():
+    summary = json.loads((run / "summary.json").read_text())
+    assert summary["status"] == "done" and summary["steps"] == 300, summary
+    assert "run.h5 is damaged" in summary["notes"][0], summary["notes"]
+    with h5py.File(run / "run.h5") as file:
+        assert list(file["frames"]) == ["000000000300"], list(file["frames"])
+
+
+def files():
+    return {file: file.read_bytes() for file in run.rglob("*") if file.is_file() and file.name != "run.log"}
+
+
+def odd_states():
+    whole = (run / "checkpoint.h5").read_bytes()
+    odd = [("scene", name, value) for name in ("looks-owed", "stage-step", "time-step") for value in (-1.0, 1e300, float("nan")) if (name, value) != ("time-step", 1e300)]
+    for group, name, value in [*odd, ("meta", "stage", 1), ("meta", "stage", 2**31 - 1)]:
+
+        def change(root, group=group, name=name, value=value):
+            if group == "meta":
+                root[group].attrs[name] = value
+            else:
+                root[group][name][...] = value
+
+        (run / "checkpoint.h5").write_bytes(whole)
+        edit_checkpoint(run / "checkpoint.h5", change)
+        before = files()
+        done = subprocess.run(["beadwork", "run", "-q", "others.xml", "--out", run, "--threads", "1", "--resume", "--set", "end=400"], stderr=subprocess.PIPE, text=True, check=False)
+        assert done.returncode == 1 and "cannot read checkpoint" in done.stderr, (name, value, done.returncode, done.stderr)
+        assert files() == before, (name, value)
+
+
+{"went-on": went_on, "odd-states": odd_states}[sys.argv[2]]()

@@ -1,0 +1,49 @@
+"""On a terminal the progress of a run fits its width, also when that changes.
+Usage: progress.py DECK OUT"""
+import fcntl
+import os
+import pty
+import re
+import signal
+import struct
+import subprocess
+import sys
+import termios
+
+
+def set_width(terminal, columns):
+    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+
+
+def lines_on_terminal(command, widths, each):
+    """What stands on the line that is written over, `each` times for every width."""
+    ours, theirs = pty.openpty()
+    set_width(ours, widths[0])
+    with subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL) as process:
+        os.close(theirs)
+        text, seen = "", []
+        while len(seen) < each * len(widths):
+            text += os.read(ours, 4096).decode()
+            *whole, text = text.split("\r\x1b[K")
+            for line in whole:
+                if re.match(r" *\d+ %", line):
+                    seen.append((widths[len(seen) // each], line))
+                    set_width(ours, widths[min(len(seen) // each, len(widths) - 1)])
+        process.send_signal(signal.SIGTERM)
+        while True:
+            try:
+                if not os.read(ours, 4096):
+                    break
+            except OSError:  # the other end is closed
+                break
+    assert process.returncode == 5, process.returncode
+    return seen
+
+
+deck, out = sys.argv[1:]
+run = ["beadwork", "run", deck, "--out", out, "--overwrite", "--threads", "1"]
+seen = lines_on_terminal(run, [30, 160], 3)
+assert all(len(line) < width for width, line in seen), seen
+narrow, wide = [line for width, line in seen if width == 30], [line for width, line in seen if width == 160]
+assert not any("[" in line for line in narrow), narrow
+assert all(re.match(r" +0 % \[\.{30}\] (\d.* to go  )?stage 'run', step \d+, time .* s, 0 breaks, largest utilisation 0$", line) for line in wide[1:]), wide
