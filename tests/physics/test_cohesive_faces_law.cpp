@@ -7,6 +7,7 @@
 
 #include "core/mechanics/cohesive_stiffness.hpp"
 #include "core/mechanics/spread.hpp"
+#include "core/mechanics/stability.hpp"
 #include "core/mechanics/verlet.hpp"
 #include "tests/support/mechanics.hpp"
 
@@ -210,6 +211,24 @@ TEST(cohesive_faces, openings_follow_the_coordinates_as_the_stiffness_says_also_
       EXPECT_LT((rows.slip.row(k).transpose() - slip).norm(), 1e-8);
     }
   }
+}
+
+// Two spheres of mass m, I = 2/5 m R^2: sliding at a contact a distance R away also turns them, k (2/m + 2 R^2/I) = 7 k/m; so does
+// opening, where the normal is at right angles to the line of centres.
+TEST(cohesive_faces, the_time_step_knows_that_the_elements_turn) {
+  const Real m = 3, R = 1, kn = opens.stiffness * area, ks = slides.stiffness * area;
+  Eigen::Matrix<Real, 12, 1> inverse_mass;
+  for (int k = 0; k < 12; ++k) inverse_mass[k] = k / 3 % 2 == 0 ? 1 / m : 1 / (0.4 * m * R * R);
+  const auto lambda = [&](const Vec3& n, const auto& modes) {
+    const Contact c{{Vec3(0, 0, 0), Vec3(0, 0, 2 * R), identity(), identity()},
+                    contact_arms(Vec3(0, 0, 2 * R), R, R, identity(), identity()),
+                    carried_normals(n, identity(), identity())};
+    return bond_lambda(sound_stiffness(modes, faces(c, c.p), area), inverse_mass);
+  };
+  EXPECT_NEAR(lambda(Vec3(0, 0, 1), normal), 2 * kn / m, 1e-12);
+  EXPECT_NEAR(lambda(Vec3(0, 0, 1), both), 7 * ks / m, 1e-12);
+  EXPECT_NEAR(lambda(Vec3(1, 0, 0), normal), 7 * kn / m, 1e-12);
+  EXPECT_NEAR(lambda(Vec3(1, 0, 0), mixed), 7 * kn / m, 1e-12);
 }
 
 TEST(cohesive_faces, part_when_they_have_slid_by_their_diameter_and_then_do_nothing_more) {
