@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -62,7 +63,7 @@ std::vector<Index> hilbert_order(std::span<const Vec3> position) {
   // One scale for the three axes: cells are cubes also in a long specimen.
   const Real extent = (high - low).maxCoeff();
   const Real top = Real((1u << bits_per_axis) - 1);
-  const Real scale = extent > 0 ? top / extent : 0;
+  const Real scale = extent > top / std::numeric_limits<Real>::max() ? top / extent : 0;
   std::vector<std::uint64_t> key(position.size());
   each_shared(position.size(), [&](std::size_t i) {
     std::array<std::uint32_t, 3> cell;
