@@ -149,9 +149,24 @@ void Run::save() {
   saved_step_ = moment_.step;
 }
 
+namespace {
+
+FileSums file_sums_of(const CheckpointMeta& meta) {
+  FileSums sums;
+  const auto there = meta.texts.find("files");
+  if (there == meta.texts.end()) return sums;
+  const auto json = bounded_json(there->second);
+  if (!json.is_object()) throw MachineFailure("the checkpoint does not hold the list of the files that the deck names");
+  for (const auto& [path, sum] : json.items())
+    if (sum.is_string()) sums[path] = sum.get<std::string>();
+  return sums;
+}
+
+}  // namespace
+
 void Run::load() {
   const CheckpointMeta meta = read_checkpoint_meta(folder_.checkpoint());
-  refuse_other_deck({meta.resolved, nlohmann::json::parse(meta.texts.contains("files") ? meta.texts.at("files") : "{}")}, scene_.resolved_tree, files_);
+  refuse_other_deck({meta.resolved, file_sums_of(meta)}, scene_.resolved_tree, files_);
   load_checkpoint(folder_.checkpoint(), domain());
   check_restored(meta);
   moment_.stage = meta.stage;
