@@ -11,6 +11,9 @@
 #include "core/io/curve.hpp"
 #include "core/io/recorder.hpp"
 #include "core/io/run_folder.hpp"
+#include "core/loop/free_motion.hpp"
+#include "core/loop/ledger.hpp"
+#include "core/loop/quality.hpp"
 #include "core/loop/scene.hpp"
 
 namespace beadwork {
@@ -33,6 +36,7 @@ struct RunFigures {
   Real wall_seconds = 0, loop_seconds = 0;  ///< the loop's are those of steps and looks, without filling and checkpoints
   Real bond_updates = 0;
   std::vector<std::string> packing_reports;  ///< JSON objects
+  QualityFigures quality;
 };
 
 /// What a few steps of the first stage tell of a run, for `plan`.
@@ -117,6 +121,12 @@ class Run final : private Workings, private Sight {
   void let_go(const Stage& next);
   void count_brought();
   Real beyond_work() const;
+  void note_work();
+  void check_balance();
+  void find_free_motions();
+  void look_at_quality(const EnergySums& sums);
+  QualityFigures quality() const;
+  Real round_off() const;
 
   // Workings
   Domain& domain() override { return *scene_.domain; }
@@ -158,6 +168,9 @@ class Run final : private Workings, private Sight {
   std::map<const BondTable*, Real> released_;           ///< energy of broken bonds, and of families that act no longer [J]
   Real initial_energy_ = 0;                             ///< there without any work [J]
   Real left_at_stage_end_ = 0;                          ///< beyond_work() when the stage before ended [J]
+  Ledger ledger_;
+  Quality quality_;
+  FreeMotions free_;  ///< of the present stage
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;

@@ -72,6 +72,8 @@ void Run::store_state() {
   state("wall-seconds") = wall_seconds();
   state("initial-energy") = initial_energy_;
   state("looks-owed") = static_cast<Real>(owed_);
+  ledger_.each([&](const std::string& name, Real& number) { state("ledger." + name) = number; });
+  quality_.each([&](const std::string& name, Real& number) { state("quality." + name) = number; });
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
   each_state(peaks_, looked_, constraints_, [&](const std::string& name, Real& number) { state(name) = number; });
 }
@@ -85,6 +87,8 @@ void Run::restore_state() {
   wall_before_ = state("wall-seconds");
   initial_energy_ = state("initial-energy");
   owed_ = static_cast<std::size_t>(state("looks-owed"));
+  ledger_.each([&](const std::string& name, Real& number) { number = state("ledger." + name); });
+  quality_.each([&](const std::string& name, Real& number) { number = state("quality." + name); });
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
   each_state(peaks_, looked_, constraints_, [&](const std::string& name, Real& number) { number = state(name); });
 }
@@ -102,6 +106,7 @@ void Run::save() {
   meta.step = moment_.step;
   meta.seed = scene_.seed;
   meta.texts["packing"] = "[" + join(figures_.packing_reports, ",") + "]";
+  meta.texts["free-bodies"] = free_.saved().dump();
   save_checkpoint(folder_.checkpoint(), domain(), meta);
   saved_ = Clock::now();
   has_checkpoint_ = true;
@@ -116,6 +121,7 @@ void Run::load() {
   moment_.time = meta.time;
   moment_.step = meta.step;
   for (const auto& report : nlohmann::json::parse(meta.texts.at("packing"))) figures_.packing_reports.push_back(report.dump());
+  free_ = FreeMotions::restored(nlohmann::ordered_json::parse(meta.texts.at("free-bodies")));
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;
@@ -157,10 +163,11 @@ Real Run::wall_seconds() const { return wall_before_ + std::chrono::duration<Rea
 
 void Run::write_summary() {
   figures_.wall_seconds = wall_seconds();
+  figures_.quality = quality();
   write_atomically(folder_.summary(), summary());
 }
 
-std::string Run::summary() const { return summary_json(scene_, figures_, moment_, options_.threads, *this); }
+std::string Run::summary() const { return summary_json(scene_, figures_, free_, moment_, options_.threads, *this); }
 
 // What is read from bonds is not saved: a watcher of it that is owed a look could not have it later.
 bool Run::can_be_saved() const {

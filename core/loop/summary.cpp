@@ -41,7 +41,7 @@ class Terms final : public EnergySink {
 
 }  // namespace
 
-std::string summary_json(const Scene& scene, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
+std::string summary_json(const Scene& scene, const RunFigures& figures, const FreeMotions& free, const Moment& moment, int threads, const Sight& sight) {
   const Domain& domain = sight.domain();
   Json json;
   json["name"] = scene.name;
@@ -64,6 +64,8 @@ std::string summary_json(const Scene& scene, const RunFigures& figures, const Mo
   Terms terms;
   sight.energies(terms);
   json["energy"] = terms.json(sight.initial_energy());
+  json["quality"] = quality_json(figures.quality);
+  json["quality"]["free_bodies"] = free.json();
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;

@@ -7,7 +7,7 @@
 
 namespace beadwork {
 
-std::string summary_json(const Scene& scene, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight);
+std::string summary_json(const Scene& scene, const RunFigures& figures, const FreeMotions& free, const Moment& moment, int threads, const Sight& sight);
 std::string curve_json(const CurvePlan& plan);
 
 /// A run goes on only with the deck that began it. Lines that say when to end, how often to look, or that only name the

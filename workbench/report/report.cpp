@@ -17,7 +17,7 @@ std::string badge(const std::string& status) {
 }
 
 std::string header(const Run& run) {
-  std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status);
+  std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status) + quality_badge(run);
   const std::string reason = text_of(run.summary, "exit_reason");
   if (!reason.empty()) out += "<p>" + escaped(reason) + "</p>";
   return out;
@@ -53,7 +53,7 @@ std::string page_of(Run& run) {
       run.recorded ? chosen(run.recorded->frames()) : std::vector<record::FrameHead>{};
   const std::string seen = pictures(run, shown);  // first: it may add notes
   std::string body =
-      facts(run) + curves(run, shown) + seen + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
+      facts(run) + curves(run, shown) + seen + quality(run) + ledger(run) + breaks(run) + packing(run) + deck_and_log(run);
   body = notes(run) + body;
   return filled(page_template, escaped(run.scene) + " – Beadwork", header(run), body);
 }
