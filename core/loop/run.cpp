@@ -86,6 +86,7 @@ void Run::go_through_stages() {
       figures_.loop_seconds += std::chrono::duration<Real>(now - from).count();
       from = save_now_and_then(now) ? Clock::now() : now;  // a checkpoint is no part of the loop
     }
+    check_balance();
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
     save();  // before the last look, so that a run that is given another end has rows as if it had never stopped
     look_at_end();
@@ -115,7 +116,11 @@ void Run::enter(Stage& stage, bool resumed) {
   rates_are_read_ = reads_rates(stage);
   for (auto& [law, table] : laws_) live_[table] = table->live();
   blaming(stage.mover(), moment_, [&] { stage.mover().prepare(*this, resumed); });
-  if (!resumed) count_brought();
+  if (!resumed) {
+    count_brought();
+    find_free_motions();
+    check_balance();  // with the swing that is there from the start
+  }
   if (watched_) reserve_room();
   whole_ = true;
   if (!resumed) return look();
@@ -154,6 +159,8 @@ void Run::step() {
   break_bonds();
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
   whole_ = true;
+  note_work();
+  if (Ledger::due(moment_.step - moment_.stage_step)) check_balance();
   look();
   former_summary_.reset();  // from here on it is this session that ends, one way or another
 }

@@ -13,8 +13,11 @@
 #include "core/io/run_folder.hpp"
 #include "core/base/repeats.hpp"
 #include "core/loop/frame_now.hpp"
+#include "core/loop/free_motion.hpp"
 #include "core/loop/largest_use.hpp"
+#include "core/loop/ledger.hpp"
 #include "core/loop/offered.hpp"
+#include "core/loop/quality.hpp"
 #include "core/loop/same_deck.hpp"
 #include "core/loop/scene.hpp"
 
@@ -47,6 +50,7 @@ struct RunFigures {
   std::vector<std::string> packing_reports;  ///< JSON objects
   std::vector<std::string> notes;            ///< what is to be known of the record, a sentence each
   std::vector<std::pair<const Failure*, LargestUse>> largest_uses;  ///< by criterion, in the order of the deck
+  QualityFigures quality;
 };
 
 /// What a few steps of the first stage tell of a run, for `plan`.
@@ -146,6 +150,12 @@ class Run final : private Workings, private Sight {
   void let_go(const Stage& next);
   void count_brought();
   Real beyond_work() const;
+  void note_work();
+  void check_balance();
+  void find_free_motions();
+  void look_at_quality(const EnergySums& sums);
+  QualityFigures quality() const;
+  Real round_off() const;
 
   // Workings
   Domain& domain() override { return *scene_.domain; }
@@ -192,6 +202,9 @@ class Run final : private Workings, private Sight {
   std::map<const BondTable*, Real> released_;           ///< energy of broken bonds, and of families that act no longer [J]
   Real initial_energy_ = 0;                             ///< there without any work [J]
   Real left_at_stage_end_ = 0;                          ///< beyond_work() when the stage before ended [J]
+  Ledger ledger_;
+  Quality quality_;
+  FreeMotions free_;  ///< of the present stage
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;

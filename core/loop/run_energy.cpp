@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/failure.hpp"
+#include "core/base/sums.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/run.hpp"
 
@@ -21,6 +23,39 @@ class WithoutKinetic final : public EnergySink {
  private:
   EnergySink& sink_;
 };
+
+Real largest_force(std::span<const Constraint> constraints) {
+  Real largest = 0;
+  for (const Constraint& c : constraints)
+    if (c.axis < 3) largest = std::max(largest, std::abs(c.reaction));
+  return largest;
+}
+
+// Sum of the forces along the axis where it is largest: of all that is prescribed, or, where loads push as well, of all that moves the
+// elements: forces of bonds are pairs and leave nothing in it.
+Real unbalanced_force(const Domain& domain, std::span<const Constraint> constraints, bool pushed) {
+  Vec3 sum = Vec3::Zero();
+  if (pushed) {
+    const auto force = domain.elements().column("force").view<Vec3>();
+    for (int axis = 0; axis < 3; ++axis) sum[axis] = fixed_sum(domain.size(), [&](Index i) { return force.at(i, axis); });
+  } else {
+    for (const Constraint& c : constraints)
+      if (c.axis < 3) sum[c.axis] += c.reaction;
+  }
+  return sum.cwiseAbs().maxCoeff();
+}
+
+bool pushes(const Load& load) {
+  return std::any_of(load.uses().begin(), load.uses().end(), [](const FieldUse* use) { return use->wanted() && use->verb() == Verb::adds && use->field().name == "force"; });
+}
+
+Index fastest_element(const Domain& domain) {
+  const auto velocity = domain.elements().column("velocity").view<Vec3>();
+  Index fastest = 0;
+  for (Index i = 1; i < domain.size(); ++i)
+    if (velocity[i].squaredNorm() > velocity[fastest].squaredNorm()) fastest = i;
+  return domain.elements().column("id").view<Index>()[fastest];
+}
 
 }  // namespace
 
@@ -64,7 +99,83 @@ void Run::let_go(const Stage& next) {
 
 // At the start of a stage: velocities that were given, and whatever else came without work.
 void Run::count_brought() {
-  initial_energy_ += beyond_work() - left_at_stage_end_;
+  EnergySums sums;
+  energies(sums);
+  initial_energy_ += sums.beyond_work() - left_at_stage_end_;
+  quality_.note_start(sums.in_motion);
+  note_work();
+}
+
+void Run::note_work() {
+  Real work = 0;
+  for (const auto& stage : constraints_)
+    for (const Constraint& c : stage) work += c.work;
+  ledger_.note_work(work, initial_energy_);
+  quality_.note_load(largest_force(constraints()), !domain().breaks().breaks.empty());
+}
+
+// Energy from nothing is told once, and ends the run where there is more of it than was ever brought and it grows.
+void Run::check_balance() {
+  complete();
+  EnergySums sums;
+  energies(sums);
+  look_at_quality(sums);
+  const Mover& mover = scene_.stages[stage_number()].mover();
+  const auto verdict = ledger_.look(sums, initial_energy_, mover.swing(), round_off());
+  if (verdict == Ledger::Verdict::balanced) return;
+  const auto surplus = fmt::format("the energy balance holds {:.4g} J that nobody brought, {:.3g} {} the {:.4g} J that were brought at most",
+                                   ledger_.gained(), verdict == Ledger::Verdict::gains ? 100 * ledger_.gained() / ledger_.brought() : ledger_.gained() / ledger_.brought(),
+                                   verdict == Ledger::Verdict::gains ? "% of" : "times", ledger_.brought());
+  if (verdict == Ledger::Verdict::gains) {
+    if (ledger_.tells()) options_.warn(fmt::format("step {}: {}; {}", moment_.step, surplus, mover.suspect()));
+    return;
+  }
+  throw PhysicsFailure(fmt::format("step {}: {}, and gains more; element {} is the fastest; {}", moment_.step, surplus, fastest_element(domain()), mover.suspect()));
+}
+
+// Where loads prescribe something, what else could move as a whole is named.
+void Run::find_free_motions() {
+  std::vector<const BondTable*> tables;
+  for (const auto& acting : laws_) tables.push_back(acting.second);
+  free_ = domain().elements().find("mass") ? FreeMotions::find(domain(), tables, constraints(), domain().elements().find("spin") != nullptr, moment_.step) : FreeMotions();
+  if (constraints().empty()) return;
+  for (const std::string& line : free_.words()) options_.say(line);
+}
+
+void Run::look_at_quality(const EnergySums& sums) {
+  const auto& breaks = domain().breaks().breaks;
+  const bool pushed = std::any_of(stage().loads.begin(), stage().loads.end(), [](const Load* load) { return pushes(*load); });
+  quality_.look({.stored = sums.in_bonds,
+                 .kinetic = sums.in_motion,
+                 .load = largest_force(constraints()),
+                 .imbalance = unbalanced_force(domain(), constraints(), pushed),
+                 .broken = !breaks.empty()});
+  if (!free_.any() || (!breaks.empty() && breaks.back().step > moment_.stage_step)) return;
+  const Real prescribed = driven_displacement(constraints(), "", moment_.stage_start, moment_.time);
+  const auto radius = domain().elements().column("radius").view<Real>();
+  quality_.note_free_motion(free_.moved(domain()),
+                            prescribed > 0 ? prescribed : fixed_sum(domain().size(), [&](Index i) { return radius[i]; }) / static_cast<Real>(domain().size()));
+}
+
+QualityFigures Run::quality() const {
+  QualityFigures figures;
+  const Real brought = ledger_.brought();
+  figures.idle = !(brought > round_off());
+  if (!figures.idle) figures.residual = ledger_.deviation() / brought;
+  quality_.tell(figures);
+  figures.dynamic = constraints().empty() || quality_.flown() > 0.1 * brought;
+  return figures;
+}
+
+// Energy that would move each element by a billionth of its radius in a step: what is at rest swings by less.
+Real Run::round_off() const {
+  const Domain& domain = *scene_.domain;
+  const Column* weights = domain.elements().find("mass");
+  if (!weights || !(moment_.time_step > 0)) return 0;
+  const auto mass = weights->view<Real>();
+  const auto radius = domain.elements().column("radius").view<Real>();
+  const Real rate = 1e-9 / moment_.time_step;
+  return 0.5 * rate * rate * fixed_sum(domain.size(), [&](Index i) { return mass[i] * radius[i] * radius[i]; });
 }
 
 }  // namespace beadwork

@@ -102,6 +102,8 @@ void Run::store_state() {
   state("wall-seconds") = wall_seconds();
   state("initial-energy") = initial_energy_;
   state("looks-owed") = static_cast<Real>(owed_);
+  ledger_.each([&](const std::string& name, Real& number) { state("ledger." + name) = number; });
+  quality_.each([&](const std::string& name, Real& number) { state("quality." + name) = number; });
   for (const std::string& family : scene_.families) state("released." + family) = released_[domain().find_family(family)];
   each_state(peaks_, looked_, last_look_, constraints_, figures_.largest_uses, [&](const std::string& name, Real& number) { state(name) = number; });
 }
@@ -115,6 +117,8 @@ void Run::restore_state() {
   wall_before_ = state("wall-seconds");
   initial_energy_ = state("initial-energy");
   owed_ = static_cast<std::size_t>(state("looks-owed"));
+  ledger_.each([&](const std::string& name, Real& number) { number = state("ledger." + name); });
+  quality_.each([&](const std::string& name, Real& number) { number = state("quality." + name); });
   for (const std::string& family : scene_.families) released_[domain().find_family(family)] = state("released." + family);
   each_state(peaks_, looked_, last_look_, constraints_, figures_.largest_uses, [&](const std::string& name, Real& number) { number = state(name); });
 }
@@ -143,6 +147,7 @@ void Run::save() {
   meta.texts["files"] = json_text(nlohmann::json(files_));
   meta.texts["curves"] = curve_ends();
   meta.texts["frame"] = frame_now_.json();
+  meta.texts["free-bodies"] = json_text(free_.saved());
   save_checkpoint(folder_.checkpoint(), domain(), meta);
   saved_ = Clock::now();
   has_checkpoint_ = true;
@@ -176,6 +181,7 @@ void Run::load() {
   const auto ends = bounded_json(meta.texts.at("curves"));
   for (const auto& [curve, length] : ends.items()) curve_ends_[curve] = length.get<std::uintmax_t>();
   frame_now_ = *FrameNow::of(meta.texts.at("frame"));
+  free_ = FreeMotions::restored(bounded_json<nlohmann::ordered_json>(meta.texts.at("free-bodies")));
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;
@@ -269,10 +275,11 @@ Real Run::wall_seconds() const { return wall_before_ + std::chrono::duration<Rea
 
 void Run::write_summary() {
   figures_.wall_seconds = wall_seconds();
+  figures_.quality = quality();
   write_atomically(folder_.summary(), summary());
 }
 
-std::string Run::summary() const { return summary_json(scene_, files_, figures_, moment_, options_.threads, *this); }
+std::string Run::summary() const { return summary_json(scene_, files_, figures_, free_, moment_, options_.threads, *this); }
 
 // The end of a stage has been saved before it is looked at: what has looked then would look twice.
 bool Run::can_be_saved() const { return whole_ && !ending_; }

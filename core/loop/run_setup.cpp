@@ -67,6 +67,8 @@ void Run::add_state_columns() {
   keep("loop-seconds", "s", "Time spent in the loop, without checkpoints");
   keep("wall-seconds", "s", "Time spent in all");
   keep("initial-energy", "J", "Energy that was there without any work");
+  ledger_.each([&](const std::string& name, Real) { keep("ledger." + name, "J", "Of the energy balance so far"); });
+  quality_.each([&](const std::string& name, Real) { keep("quality." + name, "1", "Of the figures of quality so far"); });
   keep("looks-owed", "1", "Watchers that have not had their turn at this step");
   for (const std::string& family : scene_.families) keep("released." + family, "J", "Energy of broken bonds, or of all once they act no longer");
   for (auto& [criterion, use] : figures_.largest_uses)

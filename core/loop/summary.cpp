@@ -55,7 +55,7 @@ Json utilisation(const RunFigures& figures) {
 
 }  // namespace
 
-std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight) {
+std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const FreeMotions& free, const Moment& moment, int threads, const Sight& sight) {
   const Domain& domain = sight.domain();
   Json json;
   json["name"] = scene.name;
@@ -86,6 +86,8 @@ std::string summary_json(const Scene& scene, const FileSums& files, const RunFig
   } catch (const PhysicsFailure&) {
     if (figures.status != "failed") throw;  // of a plugin that failed the energies need not be known
   }
+  json["quality"] = quality_json(figures.quality);
+  json["quality"]["free_bodies"] = free.json();
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;

@@ -8,7 +8,7 @@
 
 namespace beadwork {
 
-std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const Moment& moment, int threads, const Sight& sight);
+std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const FreeMotions& free, const Moment& moment, int threads, const Sight& sight);
 std::string curve_json(const CurvePlan& plan);
 
 }  // namespace beadwork

@@ -117,6 +117,27 @@ TEST_F(Report, shows_the_facts_with_their_units) {
   EXPECT_THAT(html, HasSubstr("<th>something new</th><td>4.25</td>"));  // a key that nobody foresaw
 }
 
+TEST_F(Report, has_a_green_badge_of_quality_only_where_it_is_good) {
+  make_run();
+  EXPECT_THAT(page(), Not(HasSubstr("Quality"))) << "a run of an earlier version has no such figures";
+  const std::string before = read(folder / "summary.json");
+  const auto with = [&](const std::string& verdict) {
+    write(folder / "summary.json", R"({"quality": {"verdict": ")" + verdict + R"(", "remarks": ["too <fast>"], "kinetic_over_stored": 0.034,
+      "free_motion": 2.5e-5, "free_bodies": [{"elements": 47, "free_to": ["move along x", "turn about z"]}]}, )" + before.substr(1));
+    return page();
+  };
+  EXPECT_THAT(with("good"), HasSubstr("<span class=\"badge done\">quasi-static, in balance</span>"));
+  for (const char* verdict : {"fair", "poor", "dynamic", "idle", "unheard-of"}) {
+    const std::string html = with(verdict);
+    EXPECT_EQ(html.find("badge done", html.find("badge done") + 1), std::string::npos) << verdict;
+  }
+  const std::string html = with("fair");
+  EXPECT_THAT(html, HasSubstr("<td>3.4 %</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>25 µm</td>"));
+  EXPECT_THAT(html, HasSubstr("<li>too &lt;fast&gt;</li>"));
+  EXPECT_THAT(html, HasSubstr("<li>a body of 47 elements was free to move along x, turn about z</li>"));
+}
+
 TEST_F(Report, draws_the_curve_with_its_labels_units_and_references) {
   make_run();
   const std::string html = page();

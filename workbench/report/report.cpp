@@ -16,7 +16,7 @@ std::string badge(const std::string& status) {
 namespace {
 
 std::string header(const Run& run) {
-  std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status);
+  std::string out = "<h1>" + escaped(run.scene) + "</h1>" + badge(run.status) + quality_badge(run);
   const std::string reason = text_of(run.summary, "exit_reason");
   if (!reason.empty()) out += "<p>" + escaped(reason) + "</p>";
   return out;
@@ -68,6 +68,7 @@ std::string page_of(Run& run, const std::string& view) {
   std::string body = attempt(run, "The facts", [&] { return facts(run); });
   body += attempt(run, "The curves", [&] { return curves(run, shown); });
   body += attempt(run, "The pictures", [&] { return pictures(run, shown, view); });
+  body += attempt(run, "The quality", [&] { return quality(run); });
   body += attempt(run, "The energy ledger", [&] { return ledger(run); });
   body += attempt(run, "The utilisation", [&] { return utilisation(run); });
   body += attempt(run, "The breaks", [&] { return breaks(run); });

@@ -13,6 +13,8 @@ std::string curves(const Run&, const std::vector<record::FrameHead>& pictured);
 std::string ledger(const Run&);
 std::string utilisation(const Run&);
 std::string breaks(const Run&);
+std::string quality(const Run&);
+std::string quality_badge(const Run&);
 std::string packing(const Run&);
 std::string deck_and_log(const Run&);
 

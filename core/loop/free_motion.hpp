@@ -1,0 +1,45 @@
+#pragma once
+// Bodies that hang together by bonds and that no load holds as a whole: they are named when a stage begins, and how far each goes that way
+// is followed. What nobody holds rolls and drifts of the least cause.   docs/theory/quasi-static.md
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/mechanics/rigid_modes.hpp"
+#include "core/plugin/kinds.hpp"
+
+namespace beadwork {
+
+class FreeMotions {
+ public:
+  /// Bodies of two elements and more, the largest first, as they are bonded by `tables` and held by `constraints` at this step; `turning`:
+  /// elements have orientations.
+  static FreeMotions find(const Domain& domain, std::span<const BondTable* const> tables, std::span<const Constraint> constraints, bool turning,
+                          std::int64_t step);
+
+  /// For the log: the largest bodies by name, the others by number.
+  std::vector<std::string> words() const;
+  bool any() const { return !bodies_.empty(); }
+  /// The farthest that a part of a body stands from where it began, by free motions alone [m]: exact for small turns.
+  Real moved(const Domain& domain) const;
+
+  nlohmann::ordered_json json() const;  ///< for summary.json
+  nlohmann::ordered_json saved() const;
+  static FreeMotions restored(const nlohmann::ordered_json& saved);
+
+ private:
+  struct Body {
+    Index elements = 0;
+    std::vector<std::string> motions;
+    RigidModes modes;  // orthonormal
+    Vec3 centre = Vec3::Zero();
+    Real length = 0;              // of the body [m]
+    std::vector<Index> outmost;   // rows of the members farthest along each axis, which are followed
+    std::vector<Vec3> start;      // where they stood [m]
+  };
+  Real moved(const Domain& domain, const Body& body) const;
+
+  std::vector<Body> bodies_;  // those that are named and followed
+  std::size_t others_ = 0;    // smaller ones
+};
+
+}  // namespace beadwork

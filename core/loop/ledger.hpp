@@ -1,0 +1,57 @@
+#pragma once
+// Holds the energy balance of a run against what was brought to it: energy from nothing is noticed, whatever the time step.
+// docs/theory/time-step.md
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/plugin/plugin.hpp"
+
+namespace beadwork {
+
+class Ledger {
+ public:
+  /// Shares of what was brought, from which on energy from nothing is warned of, and from which on a run that gains more is stopped.
+  static constexpr Real warned_from = 0.01, stopped_from = 1;
+
+  enum class Verdict { balanced, gains, runs_away };
+
+  /// Looks at the balance cost as much as some steps: all hundred steps at first, where most mistakes show, then all thousand.
+  static bool due(std::int64_t steps) { return steps % (steps <= 1000 ? 100 : 1000) == 0; }
+
+  /// After every step: work so far, and the energy that was there without any [J]. The largest counts: what a cycle has taken
+  /// back was brought nevertheless.
+  void note_work(Real work, Real initial) { brought_ = std::max(brought_, std::abs(work) + std::abs(initial)); }
+
+  /// `swing`: of the scheme (Mover::swing); `noise`: no more than round-off [J].
+  Verdict look(const EnergySums& sums, Real initial, Real swing, Real noise) {
+    note_work(sums.worked, initial);
+    const Real beyond = sums.beyond_work() - initial;
+    largest_swing_ = std::max(largest_swing_, swing);
+    const Real before = gained_;
+    gained_ = beyond - swing;
+    deviation_ = std::max({deviation_, gained_, -largest_swing_ - beyond});
+    if (!(gained_ > warned_from * brought_ + noise)) return Verdict::balanced;
+    return gained_ > stopped_from * brought_ + noise && gained_ > before ? Verdict::runs_away : Verdict::gains;
+  }
+
+  Real brought() const { return brought_; }      ///< largest so far: |work| + |what was there| [J]
+  Real gained() const { return gained_; }        ///< at the last look, beyond that and beyond the swing [J]
+  Real deviation() const { return deviation_; }  ///< largest so far by which the balance failed to close, either way [J]
+
+  /// Whether it is to be told now that energy comes from nothing: once.
+  bool tells() { return std::exchange(told_, 1) == 0; }
+
+  /// What is to be kept over a restart: f(name, number).
+  template <class F>
+  void each(const F& f) {
+    f("brought", brought_), f("gained", gained_), f("deviation", deviation_), f("swing", largest_swing_), f("told", told_);
+  }
+
+ private:
+  Real brought_ = 0, gained_ = 0, deviation_ = 0, largest_swing_ = 0, told_ = 0;
+};
+
+}  // namespace beadwork

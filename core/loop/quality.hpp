@@ -1,0 +1,101 @@
+#pragma once
+// How good a run is, by figures that its user would otherwise have to find in curves: whether the balance closes, whether it was slow
+// enough, whether what is prescribed is in equilibrium, and whether something rolled away.   docs/theory/quasi-static.md
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace beadwork {
+
+/// What is seen of a run at one look.
+struct QualityLook {
+  Real stored = 0, kinetic = 0;  ///< [J]
+  Real load = 0;                 ///< largest force of what is prescribed [N]
+  Real imbalance = 0;            ///< largest sum of these forces along an axis [N]
+  bool broken = false;           ///< something has broken by now
+};
+
+/// The figures; a share that nothing stands for is not a number.
+struct QualityFigures {
+  Real residual = 0;            ///< largest by which the balance failed to close, over the largest energy brought
+  Real kinetic = 0;             ///< largest kinetic over largest stored energy, until something breaks
+  Real kinetic_cracking = 0;    ///< largest kinetic over stored energy at one moment, from then on, while loaded
+  Real imbalance = 0;           ///< largest sum of prescribed forces over the largest of them, until something breaks
+  Real imbalance_cracking = 0;  ///< and from then on, while loaded
+  Real free_motion = 0;         ///< farthest that something undamaged moved as nothing holds it [m]
+  Real free_motion_share = 0;   ///< over the farthest prescribed displacement, or over the mean radius where there is none
+  bool dynamic = false;         ///< nothing is prescribed, or it flew from the start: quasi-static limits do not apply
+  bool idle = false;            ///< no energy was brought
+};
+
+/// What the figures amount to.
+struct QualityVerdict {
+  std::string word;  ///< good, fair, poor; dynamic where only the balance counts; idle
+  std::vector<std::string> remarks;
+};
+
+namespace quality_limits {
+/// The balance closes: 1e-3 is what the scheme itself leaves at usual steps; 2e-2 is beyond any use.
+inline constexpr Real residual = 1e-3, residual_poor = 2e-2;
+/// Quasi-static: explicit codes commonly ask for 5 to 10 %; a strength that is to be right within a percent asks for 1 % while nothing breaks.
+/// From half on it is waves that are looked at, and no slow test.
+inline constexpr Real kinetic = 0.01, kinetic_cracking = 0.05, kinetic_poor = 0.1, kinetic_waves = 0.5;
+/// Forces at both ends tell one and the same load.
+inline constexpr Real imbalance = 0.02, imbalance_cracking = 0.05, imbalance_poor = 0.1;
+/// A free motion that is a small part of the prescribed one changes little.
+inline constexpr Real free_motion = 0.05, free_motion_poor = 0.5;
+}  // namespace quality_limits
+
+QualityVerdict judged(const QualityFigures& figures);
+nlohmann::ordered_json quality_json(const QualityFigures& figures);
+
+/// Gathers them, at looks every so many steps. Once what had broken carries less than a tenth of the largest load, the test is over: pieces that
+/// swing tell nothing of it. A look counts only when the next one finds that it was not over yet.
+class Quality {
+ public:
+  void look(const QualityLook& seen) {
+    if (over_ != 0) return;
+    settle();
+    stored_ = seen.stored, kinetic_ = seen.kinetic, load_ = seen.load, imbalance_ = seen.imbalance, broken_ = seen.broken ? 1 : 0, waits_ = 1;
+  }
+  /// At every step: the largest force of what is prescribed.
+  void note_load(Real load, bool broken) {
+    largest_load_ = std::max(largest_load_, load);
+    if (broken && load < 0.1 * largest_load_) over_ = 1, waits_ = 0;
+  }
+  /// At the start of a stage: what flies then, of all energies so far [J].
+  void note_start(Real kinetic) { flown_ = std::max(flown_, kinetic); }
+  void note_free_motion(Real metres, Real over) {
+    free_motion_ = std::max(free_motion_, metres);
+    free_share_ = over > 0 ? std::max(free_share_, metres / over) : free_share_;
+  }
+
+  /// Fills in what was gathered here.
+  void tell(QualityFigures& figures) const;
+  Real flown() const { return flown_; }
+
+  /// What is to be kept over a restart: f(name, number).
+  template <class F>
+  void each(const F& f) {
+    f("stored", stored_), f("kinetic", kinetic_), f("load", load_), f("imbalance", imbalance_), f("broken", broken_), f("waits", waits_), f("over", over_);
+    f("largest-load", largest_load_), f("sound-stored", sound_stored_), f("sound-kinetic", sound_kinetic_), f("sound-load", sound_load_);
+    f("sound-imbalance", sound_imbalance_), f("cracking-kinetic", cracking_kinetic_), f("cracking-imbalance", cracking_imbalance_);
+    f("largest-stored", largest_stored_), f("free-motion", free_motion_), f("free-share", free_share_), f("flown", flown_);
+  }
+
+ private:
+  void settle();
+
+  Real stored_ = 0, kinetic_ = 0, load_ = 0, imbalance_ = 0, broken_ = 0, waits_ = 0;  // the last look, while it waits
+  Real over_ = 0, largest_load_ = 0, largest_stored_ = 0;
+  Real sound_stored_ = 0, sound_kinetic_ = 0, sound_load_ = 0, sound_imbalance_ = 0;
+  Real cracking_kinetic_ = 0, cracking_imbalance_ = 0;
+  Real free_motion_ = 0, free_share_ = 0, flown_ = 0;
+};
+
+}  // namespace beadwork

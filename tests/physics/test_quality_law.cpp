@@ -1,0 +1,76 @@
+// The figures of quality of runs whose answer is known.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/deck_run.hpp"
+
+namespace beadwork {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A bar of eight elements, two in each direction across.
+testing::DeckRun bar(const std::string& load, const std::string& until, const std::string& fail = "") {
+  return testing::run_deck(fmt::format(R"(<scene>
+    <fill><lattice set="bar" count="8 2 2" radius="1 mm" density="2000 kg/m^3"/>
+      <region set="left" where="x &lt; 2 mm"/><region set="right" where="x > 14 mm"/></fill>
+    <bond><cohesive-beam name="beam" between="bar bar" young="10 GPa" radius-ratio="0.5"/></bond>
+    <fail>{}</fail>
+    <load>{}</load>
+    <move><verlet until="{}"/></move>
+  </scene>)",
+                                       fail, load, until));
+}
+
+std::string pull(Real velocity, const std::string& rise) {
+  return fmt::format(R"(<hold set="left" axes="x"/><hold set="bar" axes="y z rx" grip="mean"/><pull set="right" axis="x" velocity="{} m/s" rise="{}"/>)", velocity, rise);
+}
+
+TEST(QualityOfRuns, a_slow_pull_is_good_and_a_fast_one_is_not) {
+  const auto slow = bar(pull(0.02, "0.5 ms"), "1 ms").summary.at("quality");
+  EXPECT_EQ(slow.at("verdict"), "good") << slow.dump(1);
+  EXPECT_GT(slow.at("kinetic_over_stored"), 1e-8);
+  const auto fast = bar(pull(10, "20 us"), "40 us").summary.at("quality");
+  EXPECT_NE(fast.at("verdict"), "good");
+  EXPECT_GT(fast.at("kinetic_over_stored"), 0.01);
+  EXPECT_LT(fast.at("residual_over_work"), 1e-3);
+}
+
+TEST(QualityOfRuns, a_slow_test_that_ends_with_a_break_is_good_up_to_it) {
+  const auto run = bar(pull(0.05, "0.5 ms"), "2 ms", R"(<bond-stress of="beam" strength="20 MPa" measure="axial"/>)");
+  ASSERT_FALSE(run.summary.at("breaks").empty());
+  EXPECT_EQ(run.summary.at("quality").at("verdict"), "good") << run.summary.at("quality").dump(1);
+}
+
+// The middle of the bar is on rollers and pushed sideways by a hair: nothing holds that, and it goes as far as it flies.
+TEST(QualityOfRuns, a_free_motion_is_followed_as_far_as_it_goes) {
+  const auto run = bar(R"(<hold set="bar" axes="x ry rz" grip="mean"/><hold set="left" axes="z"/><initial-velocity set="bar" velocity="0 0.5 0 m/s"/>)", "1 ms");
+  EXPECT_THAT(run.said, Contains(HasSubstr("a body of 32 bonded elements is free to move along y")));
+  EXPECT_NEAR(run.summary.at("quality").at("free_motion").get<Real>(), 0.5e-3, 1e-6);
+}
+
+TEST(QualityOfRuns, nothing_is_said_of_a_body_that_is_held) {
+  const auto run = bar(R"(<hold set="left"/><pull set="right" axis="x" velocity="0.02 m/s" rise="0.5 ms"/>)", "20");
+  EXPECT_THAT(run.said, ::testing::Not(Contains(HasSubstr("is free to"))));
+  EXPECT_THAT(run.summary.at("quality").at("free_bodies"), IsEmpty());
+}
+
+TEST(QualityOfRuns, a_projectile_is_dynamic) {
+  const auto run = bar(R"(<initial-velocity set="bar" velocity="0 0.5 0 m/s"/><initial-velocity set="left" velocity="0.5 0 0 m/s"/>)", "2000");
+  EXPECT_EQ(run.summary.at("quality").at("verdict"), "dynamic");
+  EXPECT_THAT(run.said, ::testing::Not(Contains(HasSubstr("is free to"))));
+}
+
+TEST(QualityOfRuns, a_push_is_in_balance_with_what_holds_against_it) {
+  const auto run = bar(R"(<hold set="left"/><push set="right" force="10 0 0 N" rise="1 ms"/>)", "2 ms").summary.at("quality");
+  EXPECT_LT(run.at("reactions_imbalance"), 0.01);
+  EXPECT_EQ(run.at("verdict"), "good") << run.dump(1);
+}
+
+TEST(QualityOfRuns, a_run_of_nothing_is_idle) { EXPECT_EQ(bar(R"(<hold set="left"/>)", "200").summary.at("quality").at("verdict"), "idle"); }
+
+}  // namespace
+}  // namespace beadwork
