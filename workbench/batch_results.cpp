@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "core/loop/bounded_json.hpp"
 #include "workbench/batch.hpp"
 #include "workbench/report/table.hpp"
 
@@ -17,12 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-Json object_in(const fs::path& file) {
-  std::ifstream in(file);
-  Json json = in ? Json::parse(in, nullptr, false) : Json::object();
-  return json.is_object() ? json : Json::object();
-}
 
 // All numbers of an object, and of those in it, by what they are called: "energy: stored [J]".
 void add_numbers(const Json& object, const std::string& heading, const std::string& unit, Results& results) {
@@ -36,7 +29,8 @@ void add_numbers(const Json& object, const std::string& heading, const std::stri
 
 void add_curve(const fs::path& file, Results& results) {
   const report::Table table = report::read_table(file, true);
-  if (object_in(fs::path(file).replace_extension(".json")).value("kind", "") == "ledger") return;  // its end stands in the summary
+  const Json sidecar = bounded_object(fs::path(file).replace_extension(".json"));
+  if (sidecar.contains("kind") && sidecar["kind"] == "ledger") return;  // its end stands in the summary
   for (const report::Column& column : table.columns) {
     if (column.is_reference()) continue;
     if (column.unit == "N") {
@@ -60,7 +54,7 @@ Results results_of(const fs::path& folder) {
     if (it->path().extension() == ".csv" && it->is_regular_file(error)) curves.push_back(it->path());
   std::sort(curves.begin(), curves.end());
   for (const fs::path& curve : curves) add_curve(curve, results);
-  const Json summary = object_in(folder / "summary.json");
+  const Json summary = bounded_object(folder / "summary.json");
   const auto part = [&](const char* key) { return summary.contains(key) && summary[key].is_object() ? summary[key] : Json::object(); };
   add_numbers(part("breaks"), "breaks", "", results);
   add_numbers(part("energy"), "energy", " [J]", results);

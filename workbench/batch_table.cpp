@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/loop/bounded_json.hpp"
 #include "workbench/batch.hpp"
 
 namespace beadwork {
@@ -15,11 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 // What the run says of itself; empty where it has not begun.
-Json summary_of(const BatchRun& run) {
-  std::ifstream file(run.folder / "summary.json");
-  Json json = file ? Json::parse(file, nullptr, false) : Json::object();
-  return json.is_object() ? json : Json::object();
-}
+Json summary_of(const BatchRun& run) { return bounded_object<Json>(run.folder / "summary.json"); }
 
 std::string text(const Json& json, const char* key) { return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : ""; }
 

@@ -1,8 +1,11 @@
 #pragma once
 // Reads JSON that anybody may have written: how deep it may be nested is bounded, since what walks over it afterwards calls itself.
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "core/io/file.hpp"
 
 namespace beadwork {
 
@@ -18,6 +21,18 @@ Json bounded_json(std::string_view text) {
   };
   Json json = Json::parse(text, stop, false);
   return too_deep ? Json(Json::value_t::discarded) : json;
+}
+
+/// The object in a file of a run; an empty one where there is no regular file of bearable length, or where it holds something else.
+template <class Json = nlohmann::ordered_json>
+Json bounded_object(const std::filesystem::path& file) {
+  constexpr std::uintmax_t longest = std::uintmax_t{1} << 26;
+  try {
+    Json json = bounded_json<Json>(read_text(file, longest));
+    return json.is_object() ? json : Json::object();
+  } catch (const MachineFailure&) {
+    return Json::object();
+  }
 }
 
 }  // namespace beadwork

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Index elements = 120;
-const RunMeta about = {"bar", "<scene/>", "<scene name=\"bar\"/>", "5e88", "0.1.0", {"bond/spring 0.1.0 lib.so"}, 2, 7, "[{\"Z\": 6.2}]"};
+const RunMeta about = {.name = "bar", .deck = "<scene/>", .resolved = "<scene name=\"bar\"/>", .deck_sha256 = "5e88", .overrides = {}, .files = {}, .version = "0.1.0",
+                       .plugins = {"bond/spring 0.1.0 lib.so"}, .threads = 2, .seed = 7, .packing = "[{\"Z\": 6.2}]"};
 
 void make(const fs::path& root, bool finished) {
   RunFolder folder = RunFolder::fresh(root, true);
@@ -78,7 +79,9 @@ void load(const fs::path& root, Domain& domain) {
 
 void go_on(const fs::path& root, const Domain& domain) {
   RunFolder folder = RunFolder::resume(root);
-  const auto cuts = cuts_after(100, folder.made_in(folder.curves()));
+  auto curves = folder.made_in(folder.curves());
+  std::erase_if(curves, [](const fs::path& file) { return file.extension() != ".csv"; });
+  const auto cuts = cuts_to({{"force", 100}}, curves);
   folder.clear_leftovers();
   Recorder recorder = Recorder::resume(folder, about, {}, domain, 100);
   cut(cuts);

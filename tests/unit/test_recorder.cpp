@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const RunMeta about_the_run = {"bar", "<scene/>", "<scene resolved=\"yes\"/>", "5e88", "0.1.0", {"bond/spring 0.1.0 lib.so"}, 2, 7, "{\"Z\": 6.2}"};
+const RunMeta about_the_run = {.name = "bar", .deck = "<scene/>", .resolved = "<scene resolved=\"yes\"/>", .deck_sha256 = "5e88", .overrides = {}, .files = {}, .version = "0.1.0",
+                               .plugins = {"bond/spring 0.1.0 lib.so"}, .threads = 2, .seed = 7, .packing = "{\"Z\": 6.2}"};
 
 /// A run that records a bar, as the loop does.
 struct Recording {
