@@ -109,7 +109,7 @@ int read(const fs::path& root) {
     const bool whole = try_to([&] { load(root, domain); });
     try_to([&] { read_for_report(root); });
     if (name.starts_with("draw-") && !try_to([&] { write_report(root); })) throw std::logic_error("there is no report");
-    try_to([&] { read_packing(root / "run.h5", 1); });
+    try_to([&] { read_packing(root / "run.h5", {}); });
     if (whole) try_to([&] { go_on(root, domain); });
     if (whole && name.starts_with("refuse-")) throw std::logic_error("it was taken for whole");
     return 0;
