@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/base/text.hpp"
 #include "core/domain/bodies.hpp"
@@ -173,23 +174,34 @@ Json FreeMotions::saved() const {
   return {{"bodies", all}, {"others", others_}};
 }
 
-FreeMotions FreeMotions::restored(const Json& saved) {
-  const auto vector = [](const Json& v) { return Vec3(v.at(0).get<Real>(), v.at(1).get<Real>(), v.at(2).get<Real>()); };
+std::optional<FreeMotions> FreeMotions::restored(const Json& saved, Index elements) try {
   FreeMotions found;
-  for (const Json& one : saved.at("bodies")) {
-    Body& body = found.bodies_.emplace_back();
-    body.elements = one.at("elements").get<Index>();
-    body.motions = one.at("motions").get<std::vector<std::string>>();
-    body.modes.resize(6, static_cast<Eigen::Index>(one.at("modes").size()));
-    for (Eigen::Index k = 0; k < body.modes.cols(); ++k)
-      for (Eigen::Index r = 0; r < 6; ++r) body.modes(r, k) = one.at("modes").at(static_cast<std::size_t>(k)).at(static_cast<std::size_t>(r)).get<Real>();
-    body.centre = vector(one.at("centre"));
-    body.length = one.at("length").get<Real>();
-    body.outmost = one.at("outmost").get<std::vector<Index>>();
-    for (const Json& place : one.at("start")) body.start.push_back(vector(place));
-  }
+  for (const Json& one : saved.at("bodies")) found.bodies_.push_back(body_of(one, elements));
   found.others_ = saved.at("others").get<std::size_t>();
   return found;
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+FreeMotions::Body FreeMotions::body_of(const Json& saved, Index elements) {
+  const auto require = [](bool whole) {
+    if (!whole) throw std::runtime_error("a free body that is not whole");
+  };
+  const auto vector = [](const Json& v) { return Vec3(v.at(0).get<Real>(), v.at(1).get<Real>(), v.at(2).get<Real>()); };
+  Body body;
+  body.elements = saved.at("elements").get<Index>();
+  body.motions = saved.at("motions").get<std::vector<std::string>>();
+  require(saved.at("modes").size() <= 6);
+  body.modes.resize(6, static_cast<Eigen::Index>(saved.at("modes").size()));
+  for (Eigen::Index k = 0; k < body.modes.cols(); ++k)
+    for (Eigen::Index r = 0; r < 6; ++r) body.modes(r, k) = saved.at("modes").at(static_cast<std::size_t>(k)).at(static_cast<std::size_t>(r)).get<Real>();
+  body.centre = vector(saved.at("centre"));
+  body.length = saved.at("length").get<Real>();
+  body.outmost = saved.at("outmost").get<std::vector<Index>>();
+  for (const Json& place : saved.at("start")) body.start.push_back(vector(place));
+  require(body.length > 0 && !body.outmost.empty() && body.outmost.size() == body.start.size());
+  require(std::all_of(body.outmost.begin(), body.outmost.end(), [&](Index row) { return row >= 0 && row < elements; }));
+  return body;
 }
 
 }  // namespace beadwork

@@ -3,6 +3,7 @@
 // is followed. What nobody holds rolls and drifts of the least cause.   docs/theory/quasi-static.md
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 
 #include "core/mechanics/rigid_modes.hpp"
 #include "core/plugin/kinds.hpp"
@@ -24,7 +25,8 @@ class FreeMotions {
 
   nlohmann::ordered_json json() const;  ///< for summary.json
   nlohmann::ordered_json saved() const;
-  static FreeMotions restored(const nlohmann::ordered_json& saved);
+  /// Nothing where that is not whole, or names elements that there are not.
+  static std::optional<FreeMotions> restored(const nlohmann::ordered_json& saved, Index elements);
 
  private:
   struct Body {
@@ -37,6 +39,7 @@ class FreeMotions {
     std::vector<Vec3> start;      // where they stood [m]
   };
   Real moved(const Domain& domain, const Body& body) const;
+  static Body body_of(const nlohmann::ordered_json& saved, Index elements);
 
   std::vector<Body> bodies_;  // those that are named and followed
   std::size_t others_ = 0;    // smaller ones

@@ -30,8 +30,9 @@ class Ledger {
     note_work(sums.worked, initial);
     const Real beyond = sums.beyond_work() - initial;
     largest_swing_ = std::max(largest_swing_, swing);
+    smallest_swing_ = std::min(smallest_swing_, swing);  // where it began below zero, it comes up from there
     const Real before = gained_;
-    gained_ = beyond - swing;
+    gained_ = beyond - swing + smallest_swing_;
     deviation_ = std::max({deviation_, gained_, -largest_swing_ - beyond});
     if (!(gained_ > warned_from * brought_ + noise)) return Verdict::balanced;
     return gained_ > stopped_from * brought_ + noise && gained_ > before ? Verdict::runs_away : Verdict::gains;
@@ -47,11 +48,11 @@ class Ledger {
   /// What is to be kept over a restart: f(name, number).
   template <class F>
   void each(const F& f) {
-    f("brought", brought_), f("gained", gained_), f("deviation", deviation_), f("swing", largest_swing_), f("told", told_);
+    f("brought", brought_), f("gained", gained_), f("deviation", deviation_), f("swing", largest_swing_), f("swing-below", smallest_swing_), f("told", told_);
   }
 
  private:
-  Real brought_ = 0, gained_ = 0, deviation_ = 0, largest_swing_ = 0, told_ = 0;
+  Real brought_ = 0, gained_ = 0, deviation_ = 0, largest_swing_ = 0, smallest_swing_ = 0, told_ = 0;
 };
 
 }  // namespace beadwork

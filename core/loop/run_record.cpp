@@ -181,7 +181,7 @@ void Run::load() {
   const auto ends = bounded_json(meta.texts.at("curves"));
   for (const auto& [curve, length] : ends.items()) curve_ends_[curve] = length.get<std::uintmax_t>();
   frame_now_ = *FrameNow::of(meta.texts.at("frame"));
-  free_ = FreeMotions::restored(bounded_json<nlohmann::ordered_json>(meta.texts.at("free-bodies")));
+  free_ = FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), domain().size()).value();
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;
@@ -197,6 +197,8 @@ void Run::check_restored(const CheckpointMeta& meta) const {
   const auto stages = scene_.stages.size();
   refuse_if(static_cast<std::size_t>(meta.stage) >= stages, fmt::format("stage {} is none of {}", meta.stage, stages));
   refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(), "its report on the packing is not whole");
+  refuse_if(!meta.texts.contains("free-bodies") || !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), scene_.domain->size()),
+            "what it says of free bodies is not whole");
   const auto curves = meta.texts.contains("curves") ? bounded_json(meta.texts.at("curves")) : nlohmann::ordered_json();
   refuse_if(!curves.is_object() || !std::all_of(curves.begin(), curves.end(), [](const auto& length) { return length.is_number_unsigned(); }),
             "its lengths of curves are not whole");

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 testing::DeckRun bar(const std::string& load, const std::string& until, const std::string& fail = "") {
   return testing::run_deck(fmt::format(R"(<scene>
     <fill><lattice set="bar" count="8 2 2" radius="1 mm" density="2000 kg/m^3"/>
-      <region set="left" where="x &lt; 2 mm"/><region set="right" where="x > 14 mm"/></fill>
+      <region set="left" where="x &lt; 2 mm"/><region set="right" where="x > 13 mm"/></fill>
     <bond><cohesive-beam name="beam" between="bar bar" young="10 GPa" radius-ratio="0.5"/></bond>
     <fail>{}</fail>
     <load>{}</load>

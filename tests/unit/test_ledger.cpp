@@ -49,6 +49,10 @@ TEST(Ledger, leaves_the_swing_of_the_scheme_and_round_off_alone) {
   EXPECT_EQ(ledger.deviation(), 0);
   EXPECT_EQ(ledger.look(sums(1, -0.5), 0, 0, 0), Verdict::balanced);
   EXPECT_EQ(ledger.deviation(), 0) << "1.5 less than the 2 by which it may have swung when it began";
+  Ledger damped;  // forces of damping make the swing begin below zero
+  EXPECT_EQ(damped.look(sums(1, 1), 0, -0.5, 0), Verdict::balanced);
+  EXPECT_EQ(damped.look(sums(1, 1.5), 0, 0, 0), Verdict::balanced);
+  EXPECT_EQ(damped.look(sums(1, 1.52), 0, 0, 0), Verdict::gains);
   EXPECT_EQ(Ledger().look(sums(0, 1e-30), 0, 0, 1e-29), Verdict::balanced);
   EXPECT_EQ(Ledger().look(sums(0, 1e-28), 0, 0, 1e-29), Verdict::runs_away);
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace beadwork {
 namespace {
 
@@ -16,13 +18,29 @@ QualityFigures told(const Quality& quality) {
   return figures;
 }
 
-TEST(Quality, compares_the_largest_until_something_breaks) {
+TEST(Quality, of_what_is_sound_counts_from_when_it_is_loaded) {
   Quality quality;
   quality.look({.stored = 1, .kinetic = 3, .load = 10, .imbalance = 5, .broken = false});  // the start wave
+  quality.look({.stored = 150, .kinetic = 3, .load = 100, .imbalance = 2, .broken = false});
   quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
-  EXPECT_DOUBLE_EQ(told(quality).kinetic, 3.0 / 400);
-  EXPECT_DOUBLE_EQ(told(quality).imbalance, 5.0 / 200);
+  EXPECT_DOUBLE_EQ(told(quality).kinetic, 3.0 / 150);
+  EXPECT_DOUBLE_EQ(told(quality).imbalance, 2.0 / 200);
   EXPECT_EQ(told(quality).kinetic_cracking, 0);
+}
+
+TEST(WorstLoaded, forgets_what_was_small_once_more_is_stored) {
+  WorstLoaded worst;
+  worst.note(0, 9);
+  EXPECT_EQ(worst.worst(), 0);
+  worst.note(1, 7);
+  worst.note(0.05, 8);
+  EXPECT_EQ(worst.worst(), 7);
+  worst.note(5, 2);
+  EXPECT_EQ(worst.worst(), 7);
+  worst.note(20, 1);
+  EXPECT_EQ(worst.worst(), 2);
+  worst.note(1e9, 0.5);
+  EXPECT_EQ(worst.worst(), 0.5);
 }
 
 TEST(Quality, compares_moments_while_it_cracks) {
@@ -63,9 +81,9 @@ TEST(Quality, is_the_same_after_a_restart) {
   before.look({.stored = 300, .kinetic = 6, .load = 150, .imbalance = 3, .broken = true});
   before.note_free_motion(2, 8);
   std::vector<Real> kept;
-  before.each([&](const char*, Real& number) { kept.push_back(number); });
+  before.each([&](const std::string&, Real& number) { kept.push_back(number); });
   auto next = kept.begin();
-  after.each([&](const char*, Real& number) { number = *next++; });
+  after.each([&](const std::string&, Real& number) { number = *next++; });
   EXPECT_EQ(quality_json(told(after)).dump(), quality_json(told(before)).dump());
   EXPECT_EQ(told(after).free_motion_share, 0.25);
 }
@@ -88,8 +106,9 @@ TEST(Quality, of_a_dynamic_scene_is_its_balance) {
   EXPECT_THAT(judged(flight).remarks, IsEmpty());
   flight.residual = 0.03;
   EXPECT_EQ(judged(flight).word, "poor");
-  EXPECT_EQ(judged({.kinetic = 0.9}).word, "dynamic");
-  EXPECT_THAT(judged({.kinetic = 0.9}).remarks, ElementsAre(HasSubstr("90 %")));
+  EXPECT_EQ(judged({.kinetic = 0.9, .imbalance = 0.8}).word, "dynamic");
+  EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks, ElementsAre(HasSubstr("90 %")));
+  EXPECT_EQ(judged({.kinetic = 0.9}).word, "poor") << "it moves, and not in waves between what holds it";
 }
 
 }  // namespace
