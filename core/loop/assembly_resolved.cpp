@@ -49,6 +49,8 @@ std::string Assembly::resolved(const Plugin& plugin, const ParamBase& param) {
   if (const auto* watcher = dynamic_cast<const Watcher*>(&plugin); watcher && &param == &watcher->moments) {
     std::vector<std::string> marks;
     for (const Mark& mark : Mark::list(*watcher->moments, "at", param.at(), deck_.scope, complaints_)) marks.push_back(mark.si());
+    const auto words = split(*watcher->moments, ',');
+    if (std::any_of(words.begin(), words.end(), [](const std::string& word) { return trim(word) == "end"; })) marks.push_back("end");
     return join(marks, ", ");
   }
   return param.text();
