@@ -363,7 +363,7 @@ void Run::tell_of_missed_moments() const {
     const Watcher& watcher = *now.watchers[w];
     if (std::any_of(later, scene_.stages.end(), [&](const Stage& stage) { return stage.watched_by(watcher); })) continue;
     for (std::size_t k = 0; k < now.marks[w].size(); ++k)
-      if (!came(watcher, k)) options_.warn(fmt::format("{}: 'at' waits in vain for {}: {} first", now.marks[w][k].at.where(), now.marks[w][k].text, figures_.exit_reason));
+      if (!came(watcher, k)) options_.warn(fmt::format("{}: 'at' waits in vain for {}: {} first", now.marks[w][k].at.where(), now.marks[w][k].words(), figures_.exit_reason));
   }
 }
 
