@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "core/base/failure.hpp"
 #include "core/loop/json_text.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/version.hpp"
 
 namespace beadwork {
@@ -37,12 +39,22 @@ class Terms final : public EnergySink {
   EnergySums sums_;
 };
 
+// Of a plugin that has failed it need not be known.
+std::string mode_of(const Failure& criterion, const RunFigures& figures) {
+  try {
+    return blaming(criterion, "mode", [&] { return criterion.mode(); });
+  } catch (const PhysicsFailure&) {
+    if (figures.status != "failed") throw;
+    return "";
+  }
+}
+
 // How near to breaking the run came, by criterion.
 Json utilisation(const RunFigures& figures) {
   Json all = Json::object();
   for (const auto& [criterion, use] : figures.largest_uses) {
     Json& one = all[criterion->id()];
-    one = {{"of", criterion->family()}, {"mode", criterion->mode()}, {"largest", use.value}};
+    one = {{"of", criterion->family()}, {"mode", mode_of(*criterion, figures)}, {"largest", use.value}};
     if (!use.is_there()) continue;
     one["step"] = std::llround(use.step);
     one["time"] = use.time;

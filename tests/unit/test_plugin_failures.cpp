@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/parallel.hpp"
 #include "core/deck/read.hpp"
+#include "core/domain/vocabulary.hpp"
 #include "core/loop/run.hpp"
 #include "core/plugin/elf.hpp"
+#include "core/plugin/library.hpp"
 #include "tests/support/scratch.hpp"
 
 namespace beadwork {
@@ -57,6 +60,7 @@ class WiredFill final : public Wired<Filler> {
 class WiredLaw final : public Wired<BondLaw> {
  public:
   static constexpr const char* about = "Does nothing";
+  Adds<Vec3> force{this, field::force};
   WiredLaw() : Wired("bond") {}
   bool accepts(const Domain&, Index, Index) const override { return wire("accepts"), true; }
   void connect(Domain&, BondTable&) override { wire("connect"); }
@@ -118,9 +122,9 @@ class WiredFail final : public Wired<Failure> {
  public:
   static constexpr const char* about = "Breaks all";
   WiredFail() : Wired("fail") {}
-  std::vector<Index> judge(const Domain&, const BondTable& table) override {
+  Verdict judge(const Domain&, const BondTable& table) override {
     wire("judge");
-    return table.live() > 0 ? std::vector<Index>{0} : std::vector<Index>{};
+    return table.live() > 0 ? Verdict{{0}, 1, 0} : Verdict{};
   }
   std::string mode() const override { return wire("mode"), "broken"; }
 };
