@@ -137,7 +137,7 @@ class Dashpots {
     for (const Chunk& chunk : table.chunks())
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
         const Index i = table.first()[b], j = table.second()[b];
-        const DashpotRates c = dashpot_rates(law.tangent(domain, table, b), position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
+        const DashpotRates c = dashpot_rates(blaming(law, "tangent", [&] { return law.tangent(domain, table, b); }), position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
                                              inertia ? 1 / inertia[i] + 1 / inertia[j] : 0);
         family.along[b] = c.along;
         family.across[b] = c.across;

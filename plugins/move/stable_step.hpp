@@ -58,7 +58,7 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
       network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
     }
   };
-  each_shared(parts.size(), [&](std::size_t p) { ask(parts[p]); });
+  each_shared(parts.size(), [&](std::size_t p) { blaming(*parts[p].law, "tangent", [&] { ask(parts[p]); }); });
   if (network.bonds() == 0) return {};
   const StableStep found = stable_step(network, mobility, 1);
   StepLimit limit{found.dt, ""};

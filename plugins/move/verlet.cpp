@@ -184,7 +184,7 @@ class Verlet final : public Mover {
   Real power_of_laws(Workings& w) const {
     Real power = 0;
     if (laws_move_)
-      for (const auto& [law, table] : w.laws()) power += law->power(w.domain(), *table);
+      for (const auto& [law, table] : w.laws()) power += blaming(*law, "power", [&, law = law, table = table] { return law->power(w.domain(), *table); });
     return power;
   }
 
