@@ -196,7 +196,7 @@ class Here {
       BatchRun& run = *waiting_.front();
       waiting_.pop_front();
       if (is_busy(run.folder)) {
-        if (elsewhere_.insert(&run).second) say(fmt::format("{}: {} is at it still and is waited for", run.name, holder_of(run.folder)));
+        if (elsewhere_.insert(&run).second) tell(fmt::format("{}: {} is at it still and is waited for", run.name, holder_of(run.folder)));
         waiting_.push_back(&run);
         busy = true;
       } else if (elsewhere_.contains(&run) && is_done(run)) {
@@ -229,13 +229,13 @@ class Here {
     run.results = results_of(run.folder);
     ++ended_;
     ++here_;
-    say(fmt::format("[{}/{}] {}: {}", ended_, runs_.size(), run.name, how));
+    tell(fmt::format("[{}/{}] {}: {}", ended_, runs_.size(), run.name, how));
     write();
   }
 
-  void say(const std::string& line) {
+  void tell(const std::string& line) {
     progress_.hide();
-    say("{}\n", line);
+    beadwork::say("{}\n", line);
     std::fflush(stdout);
   }
 
@@ -255,7 +255,7 @@ class Here {
   std::size_t ended_ = 0, here_ = 0, all_ = 0;
   Clock::time_point next_look_;
   Progress progress_{[](const std::string& line) {
-    say("{}\n", line);
+    beadwork::say("{}\n", line);
     std::fflush(stdout);
   }};
 };
