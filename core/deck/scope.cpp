@@ -33,13 +33,14 @@ void Scope::set(std::string_view name, std::string_view text, Complaints& compla
   if (found == index_.end())
     return complaints.error({source, 1, 1, 0}, "the deck has no parameter '" + std::string(name) + "'" +
                                                    did_you_mean(name, names()));
+  const Location at{source, 1, static_cast<int>(name.size()) + 2, name.size() + 1};
+  if (const auto invisible = first_invisible(text))
+    return complaints.error(locate(at, invisible->at), invisible->words + ", stands here: leave it out");
   Entry& entry = entries_[found->second];
   entry.parameter.text = with_plain_blanks(text);
-  entry.parameter.text_at = {source, 1, static_cast<int>(name.size()) + 2, name.size() + 1};
+  entry.parameter.text_at = at;
   entry.values.reset();
   entry.text.reset();
-  if (const auto invisible = first_invisible(text))
-    complaints.error(locate(entry.parameter.text_at, invisible->at), invisible->words + ", stands here: leave it out");
 }
 
 const Scope::Entry* Scope::find(std::string_view name) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/base/text.hpp"
@@ -65,7 +66,8 @@ void Plugin::configure(const Node& node, const std::string& id, const Scope& sco
                                                       did_you_mean(attribute.name, known)));
   for (const auto& child : node.children)
     complaints.error(child->at, fmt::format("<{}> takes no <{}> inside it", tag_, child->tag));
-  check_groups(complaints);
+  const bool group_is_misspelt = std::any_of(params_.begin(), params_.end(), [&](const ParamBase* p) { return !p->info().one_of.empty() && misspelt.contains(p->info().name); });
+  if (!group_is_misspelt) check_groups(complaints);
 }
 
 std::string Plugin::column_name(const FieldUse& use) const {

@@ -1,4 +1,4 @@
-"""Writes decks that name what no file system can reach: unreachable.py FOLDER"""
+"""Writes decks that name what no file system can reach, beside links that go round: unreachable.py FOLDER"""
 import os
 import sys
 from pathlib import Path

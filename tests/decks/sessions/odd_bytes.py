@@ -15,4 +15,4 @@ for file in Path(sys.argv[1]).rglob("*"):
     if file.suffix in (".xml", ".xmf", ".xdmf"):
         xml.dom.minidom.parseString(text)
 summary = json.loads((Path(sys.argv[1]) / "summary.json").read_text())
-print(summary["status"], summary["name"], summary["exit_reason"], sep=": ", file=sys.stderr)
+print(summary["status"], ascii(summary["name"]), file=sys.stderr)
