@@ -129,12 +129,13 @@ int worst(const std::vector<BatchRun>& runs) {
   return code;
 }
 
-void add_batch(CLI::App& app, Chosen& chosen) {
+void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
   CLI::App* verb = app.add_subcommand("batch", "Runs a deck with many values of its parameters, and tabulates the results");
   verb->footer("Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
                "What is done is left alone, what was interrupted goes on: give the same command again.\n"
                "beadwork report out/sweep lays the curves of the runs over one another.");
   auto arguments = std::make_shared<BatchArguments>();
+  arguments->words = words;
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the runs, one folder each, and for batch.csv")->required();
   verb->add_option("--vary", arguments->variations, "Values of a parameter: name=value,value,...; several give all combinations")->allow_extra_args(false);

@@ -29,11 +29,6 @@ struct RunArguments {
   double checkpoint_minutes = 10;
 };
 
-// For who looks at the run later; the terminal stays short.
-void note_in_file(const spdlog::logger& log, const std::string& line) {
-  log.sinks().front()->log({log.name(), spdlog::level::info, line});
-}
-
 std::string instructions_of(const Library& library) {
   const auto sets = instruction_sets();
   const std::string folder = library.path.parent_path().filename().string();

@@ -68,4 +68,8 @@ std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, 
   return log;
 }
 
+void note_in_file(const spdlog::logger& log, const std::string& line) {
+  log.sinks().front()->log({log.name(), spdlog::level::info, line});
+}
+
 }  // namespace beadwork

@@ -209,7 +209,7 @@ TEST_F(Report, recorded_fields_are_drawn_with_their_colour_bar) {
   Column& heat = domain.elements().add({"heat", On::elements, Type::real, "K", "Heat", ""});
   for (Index b = 0; b < 6; ++b) pull.view<Real>()[b] = b - 2;
   for (Index i = 0; i < 12; ++i) heat.view<Real>()[i] = i == 3 ? std::nan("") : 300;
-  const RunFolder run = RunFolder::fresh(folder, false);
+  RunFolder run = RunFolder::fresh(folder, false);
   Recorder recorder = Recorder::fresh(run, {}, {}, domain);
   FrameRequest request;
   request.elements = {&heat};
