@@ -22,6 +22,8 @@ def mistakes(beadwork, plugin, deck):
     checked = run(beadwork, "check", str(deck)).stderr
     named = re.findall(r"error: '([a-z0-9-]+)' ", checked)
     wanted = [p["name"] for p in plugin["parameters"] if p["required"]]
+    groups = {p["one_of"]: p["name"] for p in reversed(plugin["parameters"]) if "one_of" in p}  # the first of each is written
+    wanted += groups.values()
     if plugin["section"] == "move":
         wanted.append("until")
     # A formula complains of its expression, not by its name.
