@@ -86,9 +86,9 @@ void Run::go_through_stages() {
       figures_.loop_seconds += std::chrono::duration<Real>(now - from).count();
       from = save_now_and_then(now) ? Clock::now() : now;  // a checkpoint is no part of the loop
     }
-    check_balance();
     figures_.exit_reason = fmt::format("stage '{}' reached {}", stage().name, stage().until->met());
-    save();  // before the last look, so that a run that is given another end has rows as if it had never stopped
+    save();  // before the last looks, so that a run that is given another end goes on as if it had never stopped
+    check_balance();
     look_at_end();
     tell_of_missed_moments();
   }

@@ -45,7 +45,7 @@ TEST(SameDeck, may_end_and_look_when_it_likes) {
 
 TEST(SameDeck, says_of_each_attribute_that_differs_where_it_stands) {
   const std::string text = said(changed("x &lt; 1 m", "x &lt; 2 m"));
-  EXPECT_THAT(text, HasSubstr("resolved.xml:2:86: error: 'where' is \"x < 2 m\" here, but \"x < 1 m\" in the run that is to go on"));
+  EXPECT_THAT(text, HasSubstr("resolved.xml:2:82: error: 'where' is \"x < 2 m\" here, but \"x < 1 m\" in the run that is to go on"));
   EXPECT_THAT(text, HasSubstr("1 error"));
   EXPECT_THAT(said(changed("every=\"1\"", "every=\"2\"")), HasSubstr("'every' is \"2\" here, but \"1\""));  // of a criterion: physics
   EXPECT_THAT(said(changed("at=\"5\"", "at=\"6\"")), HasSubstr("'at' is"));
