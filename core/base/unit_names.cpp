@@ -25,13 +25,13 @@ constexpr Names with_prefix_word_no_plural = "hertz siemens lux henry";
 /// As they stand.
 constexpr Names symbols =
     "t h hr min d lb in ft yd mi lbf kgf gf kip psi ksi atm mmHg cc VA \u00B0 \u00C5 \u212B % percent ppm rpm rps deg "
-    "feet inches international_feet international_inches US_survey_foot US_survey_feet kilogram_force kilograms_force gram_force grams_force "
+    "foot feet inch inches international_foot international_inch international_feet international_inches US_survey_foot US_survey_feet kilogram_force kilograms_force gram_force grams_force "
     "pound_force pounds_force standard_free_fall darcy";
 
 /// With a plural s or without.
 constexpr Names words =
     "minute hour day week fortnight sec amp metric_ton short_ton long_ton pound avoirdupois_pound avoirdupois_ounce troy_pound troy_ounce "
-    "slug grain carat long_hundredweight short_hundredweight inch foot yard mile international_foot international_inch international_yard "
+    "slug grain carat long_hundredweight short_hundredweight yard mile international_yard "
     "international_mile nautical_mile US_survey_yard US_survey_mile micron angstrom fermi hectare are acre degree arc_degree "
     "angular_degree arcdeg arc_minute angular_minute arcminute arcmin arc_second angular_second arcsecond arcsec turn revolution rotation "
     "knot atmosphere standard_atmosphere torr force_kilogram force_gram force_pound poundal dyne erg barye poise IT_calorie "

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/plugin/blame.hpp"
+
 namespace beadwork {
 
 void LargestUse::note(const Verdict& verdict, const Domain& domain, const BondTable& table, const Moment& moment) {
@@ -15,7 +17,7 @@ void LargestUse::note(const Verdict& verdict, const Domain& domain, const BondTa
 }
 
 std::string sentence(const LargestUse& use, const Failure& failure) {
-  const std::string of = fmt::format("<{} of=\"{}\"> ({})", failure.tag(), failure.family(), failure.mode());
+  const std::string of = fmt::format("<{} of=\"{}\"> ({})", failure.tag(), failure.family(), blaming(failure, "mode", [&] { return failure.mode(); }));
   if (!use.is_there()) return fmt::format("{} has found no bond under load", of);
   return fmt::format("largest utilisation of {}: {:.4g} at step {:.0f} ({:.4g} s), bond {:.0f} between elements {:.0f} and {:.0f}, at ({:.4g}, {:.4g}, {:.4g}) m", of,
                      use.value, use.step, use.time, use.bond, use.first, use.second, use.x, use.y, use.z);

@@ -242,7 +242,7 @@ TEST_F(AnExpression, is_spelt_out_without_parameters_in_si) {
   EXPECT_EQ(spelt("per*x"), "15873.015873015873 m^-2.s^-1 * x");
   const Scope nothing;
   for (const std::string text : {"x<L/2", "L-notch", "-L^2", "debt^k^2/7", "if(x>L,odd*3,odd)^2", "per*per/odd", "k-n", "2*-debt", "atan2(notch,x)*1/3",
-                                 "sqrt(L*L+x^2)/0.1 um", "1e-7 m*n", "x>0.3 mm or n<k and x<L", "(x<L)&&!(n<debt)", "25.4 min * per * x"}) {
+                                 "sqrt(L*L+x^2)/0.1 um", "1e-7 m*n", "x>0.3 mm or n<k and x<L", "(x<L)&&not(n<debt)", "25.4 min * per * x"}) {
     const auto first = compile(text);
     ASSERT_TRUE(first) << text << complaints.text();
     const auto again = Expression::compile(first->text(), place(first->text()), nothing, variables, complaints);
