@@ -154,7 +154,7 @@ def damage_datasets(corpus, seed, file, count, each=2):
                 attributes = dict(root[name].attrs)
                 del root[name]
                 kinds[name][kind](root)
-                if isinstance(root.get(name), h5py.Dataset):
+                if root.get(name, getclass=True, getlink=True) is h5py.HardLink and isinstance(root[name], h5py.Dataset):
                     for key, value in attributes.items():
                         root[name].attrs[key] = value
 
