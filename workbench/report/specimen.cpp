@@ -174,11 +174,12 @@ void complete_displacement(record::Frame& frame, const record::Frame& first) {
   if (!frame.displacement.empty()) return;
   std::unordered_map<std::int64_t, std::size_t> row;
   for (std::size_t i = 0; i < first.id.size(); ++i) row[first.id[i]] = i;
+  std::vector<Vec3> displacement;  // apart, as `first` may be this very frame
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     const auto found = row.find(frame.id[i]);
-    frame.displacement.push_back(
-        found == row.end() ? Vec3(Vec3::Zero()) : Vec3(frame.position[i] - at_rest(first, found->second)));
+    displacement.push_back(found == row.end() ? Vec3(Vec3::Zero()) : Vec3(frame.position[i] - at_rest(first, found->second)));
   }
+  frame.displacement = std::move(displacement);
 }
 
 Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
