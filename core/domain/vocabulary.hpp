@@ -24,6 +24,6 @@ inline const Field twisting_moment{"twisting-moment", On::bonds, Type::real, "N.
 inline const Field section_radius{"section-radius", On::bonds, Type::real, "m", "Radius of the circular section", ""};
 inline const Field rest_length{"rest-length", On::bonds, Type::real, "m", "Distance of the centres when the bond was made", ""};
 inline const Field utilisation{"utilisation", On::bonds, Type::real, "1", "Failure criterion over its threshold", ""};
-inline const Field damage{"damage", On::bonds, Type::real, "1", "0 sound, 1 open", ""};
+inline const Field damage{"damage", On::bonds, Type::real, "1", "0 undamaged, 1 failed", ""};
 
 }  // namespace beadwork::field

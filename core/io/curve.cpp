@@ -42,21 +42,26 @@ std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
   return head;
 }
 
-// Up to `most`, in whole rows: one that ends with the file, not with its line, is torn.
-std::uintmax_t length_of(const std::filesystem::path& file, std::uintmax_t most) {
+// What rows a resume keeps: up to the checkpoint, and whole ones only. A row that ends with the file, not with its line, is torn.
+std::uintmax_t kept_length(const std::filesystem::path& file, const CurveEnd& end) {
   std::ifstream in = open_to_read(file);
-  std::uintmax_t length = head_of(in, file).size() + 1;
-  for (std::string row; length < most && std::getline(in, row) && !in.eof();) length += row.size() + 1;
+  const std::string head = head_of(in, file);
+  if (end.length > 0 && head != end.first_line)
+    throw MachineFailure(fmt::format("curve '{}' has the columns \"{}\", the checkpoint knows it with \"{}\"; put that line back, or remove "
+                                     "the file to go on without its rows",
+                                     file.string(), head, end.first_line));
+  std::uintmax_t length = head.size() + 1;
+  for (std::string row; length < end.length && std::getline(in, row) && !in.eof();) length += row.size() + 1;
   return length;
 }
 
 }  // namespace
 
-std::vector<CurveCut> cuts_to(const std::map<std::string, std::uintmax_t>& lengths, const std::vector<std::filesystem::path>& files) {
+std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const std::vector<std::filesystem::path>& files) {
   std::vector<CurveCut> cuts;
   for (const auto& file : files) {
-    const auto known = lengths.find(file.stem().string());
-    cuts.push_back({file, length_of(file, known == lengths.end() ? 0 : known->second)});
+    const auto known = ends.find(file.stem().string());
+    cuts.push_back({file, kept_length(file, known == ends.end() ? CurveEnd{} : known->second)});
   }
   return cuts;
 }
@@ -66,9 +71,12 @@ void cut(const std::vector<CurveCut>& cuts) {
     if (::ftruncate(open_regular(cut.file, O_WRONLY, "cut").number(), static_cast<off_t>(cut.length)) != 0) throw file_failure("cut", cut.file, errno);
 }
 
+Curve::Curve(std::filesystem::path file, const std::vector<CurveColumn>& columns)
+    : file_(std::move(file)), first_line_(beadwork::first_line(columns)), columns_(columns.size()) {}
+
 Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   write_atomically(file, first_line(columns) + "\n");
-  Curve curve(file, columns.size());
+  Curve curve(file, columns);
   curve.open();
   return curve;
 }
@@ -82,7 +90,7 @@ Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveCo
     throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
                                   "wrote it",
                                   file.string(), head, first_line(columns)));
-  Curve curve(file, columns.size());
+  Curve curve(file, columns);
   curve.open();
   return curve;
 }
@@ -112,10 +120,10 @@ void Curve::sync() {
   if (::fsync(descriptor_.number()) != 0 && errno != EINVAL) throw file_failure("write", file_, errno);
 }
 
-std::uintmax_t Curve::length() const {
+CurveEnd Curve::end() const {
   const off_t end = ::lseek(descriptor_.number(), 0, SEEK_END);
   if (end < 0) throw file_failure("read", file_, errno);
-  return static_cast<std::uintmax_t>(end);
+  return {static_cast<std::uintmax_t>(end), first_line_};
 }
 
 void Curve::write_sidecar(const std::string& json) const {

@@ -21,6 +21,12 @@ struct CurveColumn {
   std::string unit = "1";
 };
 
+/// How a curve stands when a checkpoint is written.
+struct CurveEnd {
+  std::uintmax_t length = 0;  ///< of the file, in bytes
+  std::string first_line;     ///< names and units of the columns
+};
+
 class Curve {
  public:
   /// Writes the first line. The step comes first by itself; `columns` follow it.
@@ -32,8 +38,8 @@ class Curve {
   void add(std::int64_t step, std::span<const Real> values);
   /// Waits until the disk has the rows; before a checkpoint, so that it never knows more than the curve.
   void sync();
-  /// Of the file, in bytes.
-  std::uintmax_t length() const;
+  /// How the file stands.
+  CurveEnd end() const;
   /// Writes a text about the curve beside it: curves/force.csv, curves/force.json.
   void write_sidecar(const std::string& json) const;
 
@@ -41,10 +47,11 @@ class Curve {
   std::size_t columns() const { return columns_; }
 
  private:
-  Curve(std::filesystem::path file, std::size_t columns) : file_(std::move(file)), columns_(columns) {}
+  Curve(std::filesystem::path file, const std::vector<CurveColumn>& columns);
   void open();
 
   std::filesystem::path file_;
+  std::string first_line_;
   std::size_t columns_;
   Descriptor descriptor_;
   std::string row_;
@@ -55,10 +62,11 @@ struct CurveCut {
   std::filesystem::path file;
   std::uintmax_t length = 0;
 };
-/// The cuts that take these curves back to a checkpoint, which knows how long each was, by its name: rows that came later go, be they of
+/// The cuts that take these curves back to a checkpoint, which knows how each stood, by its name: rows that came later go, be they of
 /// its very step, and a last row that a kill has torn. Of a curve that has been cut shorter whole rows stay; of one that the checkpoint does
-/// not know the first line. Changes nothing: a resume looks at everything before it cuts anything. MachineFailure if one cannot be read.
-std::vector<CurveCut> cuts_to(const std::map<std::string, std::uintmax_t>& lengths, const std::vector<std::filesystem::path>& files);
+/// not know the first line. Changes nothing: a resume looks at everything before it cuts anything. MachineFailure if one cannot be read,
+/// or has other columns than it had.
+std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const std::vector<std::filesystem::path>& files);
 void cut(const std::vector<CurveCut>& cuts);
 
 }  // namespace beadwork

@@ -1,5 +1,6 @@
 #include "core/io/packing_text.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "core/base/complaints.hpp"
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/io/file.hpp"
 
 namespace beadwork {
 
@@ -29,6 +31,7 @@ struct Cell {
 };
 
 std::shared_ptr<const Source> source_of(const std::filesystem::path& file) {
+  open_regular(file, O_RDONLY, "read", Links::follow);  // a pipe would be waited for
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw MachineFailure(fmt::format("cannot read \"{}\": {}", file.string(), std::strerror(errno)));
   auto source = std::make_shared<Source>(Source{file.string(), {std::istreambuf_iterator<char>(stream), {}}});

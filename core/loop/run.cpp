@@ -70,7 +70,7 @@ void Run::begin() {
 void Run::go_through_stages() {
   const auto first = stage_number();
   for (std::size_t s = first; s < scene_.stages.size(); ++s) {
-    if (s > first) let_go(scene_.stages[s]);
+    if (s > first) release(scene_.stages[s]);
     moment_.stage = static_cast<int>(s);
     const bool resumed = options_.resume && s == first;
     try {
@@ -233,7 +233,7 @@ void Run::log_events() {
   }
 }
 
-// All criteria see one configuration; only then do bonds fall, each once, in the order of the deck's criteria.
+// All criteria see one configuration; only then do bonds break, each once, in the order of the deck's criteria.
 void Run::break_bonds() {
   std::vector<std::pair<Failure*, Verdict>> verdicts;
   derived_now_.clear();
@@ -246,7 +246,7 @@ void Run::break_bonds() {
     if (!verdict.fallen.empty()) verdicts.emplace_back(failure, std::move(verdict));
   }
   if (verdicts.empty()) return;
-  complete();  // with the forces of the bonds that fall
+  complete();  // with the forces of the bonds that break
   std::set<BondTable*> touched;
   const auto x = domain().elements().column("position").view<Vec3>();
   BreakLog& log = domain().breaks();
@@ -363,7 +363,7 @@ void Run::tell_of_missed_moments() const {
     const Watcher& watcher = *now.watchers[w];
     if (std::any_of(later, scene_.stages.end(), [&](const Stage& stage) { return stage.watched_by(watcher); })) continue;
     for (std::size_t k = 0; k < now.marks[w].size(); ++k)
-      if (!came(watcher, k)) options_.warn(fmt::format("{}: 'at' waits in vain for {}: {} first", now.marks[w][k].at.where(), now.marks[w][k].words(), figures_.exit_reason));
+      if (!came(watcher, k)) options_.warn(fmt::format("{}: 'at' did not come to {}: {} first", now.marks[w][k].at.where(), now.marks[w][k].words(), figures_.exit_reason));
   }
 }
 

@@ -147,7 +147,7 @@ class Run final : private Workings, private Sight {
   RunMeta meta() const;
 
   // the balance (run_energy.cpp)
-  void let_go(const Stage& next);
+  void release(const Stage& next);
   void count_brought();
   Real beyond_work() const;
   void note_work();
@@ -208,7 +208,7 @@ class Run final : private Workings, private Sight {
   std::map<const BondTable*, Index> live_;
   struct OpenCurve;
   std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
-  std::map<std::string, std::uintmax_t> curve_ends_;  ///< lengths of the files when the newest checkpoint was written
+  std::map<std::string, CurveEnd> curve_ends_;  ///< when the newest checkpoint was written
   FrameNow frame_now_;
   Repeats repeats_;
   std::optional<Recorder> recorder_;

@@ -85,7 +85,7 @@ Real Run::beyond_work() const {
 
 // A family that does not stand in the next stage pulls no longer: what its bonds hold is lost to the balance, and what they
 // have dissipated stays booked.
-void Run::let_go(const Stage& next) {
+void Run::release(const Stage& next) {
   std::erase_if(laws_, [&](const auto& acting) {
     const auto& [law, table] = acting;
     if (std::find(next.laws.begin(), next.laws.end(), law) != next.laws.end()) return false;

@@ -45,7 +45,7 @@ void Run::open_record() {
   }
   for (const std::string& note : recorder_->notes()) {
     options_.warn(note);
-    figures_.notes.push_back(note);
+    figures_.notes.push_back(note);  // beside those of the sessions before
   }
   write_atomically(folder_.resolved(), scene_.resolved);
   write_summary();
@@ -127,9 +127,11 @@ void Run::restore_state() {
 std::string Run::curve_ends() {
   for (auto& [name, curve] : curves_) {
     curve->curve.sync();
-    curve_ends_[name] = curve->curve.length();
+    curve_ends_[name] = curve->curve.end();
   }
-  return json_text(nlohmann::json(curve_ends_));
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [name, end] : curve_ends_) json[name] = {end.length, end.first_line};
+  return json_text(json);
 }
 
 void Run::save() {
@@ -148,6 +150,7 @@ void Run::save() {
   meta.texts["curves"] = curve_ends();
   meta.texts["frame"] = frame_now_.json();
   meta.texts["free-bodies"] = json_text(free_.saved());
+  meta.texts["notes"] = json_text(nlohmann::json(figures_.notes));
   save_checkpoint(folder_.checkpoint(), domain(), meta);
   saved_ = Clock::now();
   has_checkpoint_ = true;
@@ -179,7 +182,8 @@ void Run::load() {
   moment_.step = meta.step;
   for (const auto& report : bounded_json(meta.texts.at("packing"))) figures_.packing_reports.push_back(json_text(report));
   const auto ends = bounded_json(meta.texts.at("curves"));
-  for (const auto& [curve, length] : ends.items()) curve_ends_[curve] = length.get<std::uintmax_t>();
+  for (const auto& [curve, end] : ends.items()) curve_ends_[curve] = {end[0].get<std::uintmax_t>(), end[1].get<std::string>()};
+  for (const auto& note : bounded_json(meta.texts.at("notes"))) figures_.notes.push_back(note.get<std::string>());
   frame_now_ = *FrameNow::of(meta.texts.at("frame"));
   free_ = FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), domain().size()).value();
   restore_state();
@@ -200,8 +204,11 @@ void Run::check_restored(const CheckpointMeta& meta) const {
   refuse_if(!meta.texts.contains("free-bodies") || !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), scene_.domain->size()),
             "what it says of free bodies is not whole");
   const auto curves = meta.texts.contains("curves") ? bounded_json(meta.texts.at("curves")) : nlohmann::ordered_json();
-  refuse_if(!curves.is_object() || !std::all_of(curves.begin(), curves.end(), [](const auto& length) { return length.is_number_unsigned(); }),
-            "its lengths of curves are not whole");
+  const auto is_end = [](const auto& end) { return end.is_array() && end.size() == 2 && end[0].is_number_unsigned() && end[1].is_string(); };
+  refuse_if(!curves.is_object() || !std::all_of(curves.begin(), curves.end(), is_end), "what it says of curves is not whole");
+  const auto notes = meta.texts.contains("notes") ? bounded_json(meta.texts.at("notes")) : nlohmann::ordered_json();
+  refuse_if(!notes.is_array() || !std::all_of(notes.begin(), notes.end(), [](const auto& note) { return note.is_string(); }),
+            "what is to be known of its record is not whole");
   refuse_if(!meta.texts.contains("frame") || !FrameNow::of(meta.texts.at("frame")), "what it says of a frame is not whole");
   const auto number = [&](const char* name) { return scene_.domain->scene().column(name).view<const Real>()[0]; };
   for (const char* name : {"time-step", "stage-start", "stage-step", "looks-owed", "wall-seconds"})

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/text.hpp"
 #include "core/base/units.hpp"
@@ -109,6 +110,26 @@ std::string Until::Clause::si() const {
   return fmt::format("{} of {} {} {}", watches_force ? "force" : "displacement", set, comparison, limit);
 }
 
+namespace {
+
+// Of a condition on nothing but the displacement. A run sees some displacements only, and so do we: a condition that holds between two of
+// these thousands would be missed by most runs too.
+std::string why_no_displacement_meets(const Expression& condition, Real reach) {
+  constexpr std::size_t displacement = static_cast<std::size_t>(Mark::What::displacement);
+  constexpr int looks = 4096;
+  for (std::size_t v = 0; v < Mark::variables().size(); ++v)
+    if (v != displacement && condition.uses(v)) return "";
+  if (!std::isfinite(reach)) return "";
+  std::vector<Real> values(Mark::variables().size(), 0);
+  for (int k = 0; k <= looks; ++k) {
+    values[displacement] = reach * k / looks;
+    if (condition.evaluate(values) == 1) return "";
+  }
+  return fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most", format_quantity(reach, "m"));
+}
+
+}  // namespace
+
 // Forces and displacements are magnitudes; what is to fall below a value must have been above it.
 std::string Until::Clause::why_never(std::span<const Constraint> constraints) const {
   if (what == What::mark) return mark.why_never(constraints);
@@ -117,13 +138,14 @@ std::string Until::Clause::why_never(std::span<const Constraint> constraints) co
   if (what == What::condition) {
     const auto displacement = static_cast<std::size_t>(Mark::What::displacement);
     if (condition->uses(displacement) && !reach) return "waits for a displacement, but nothing in <load> is pulled";
+    if (condition->uses(displacement)) return why_no_displacement_meets(*condition, *reach);
     for (std::size_t v = 0; v < Mark::variables().size(); ++v)
       if (condition->uses(v)) return "";
     return fmt::format("wants a condition on time, step or displacement, \"{}\" never changes", text);
   }
   if (!reach) return fmt::format("watches set '{}', which nothing in <load> drives", set);
-  if (falls && (value < 0 || (value == 0 && comparison == "<"))) return fmt::format("waits in vain: a {} is never negative", watches_force ? "force" : "displacement");
-  if (!falls && of_maximum && (value > 1 || (value == 1 && comparison == ">"))) return "waits in vain: nothing is above its maximum";
+  if (falls && (value < 0 || (value == 0 && comparison == "<"))) return fmt::format("can never be met: a {} is never negative", watches_force ? "force" : "displacement");
+  if (!falls && of_maximum && (value > 1 || (value == 1 && comparison == ">"))) return "can never be met: nothing is above its maximum";
   if (of_maximum || watches_force || *reach > value || (comparison == ">=" && *reach == value)) return "";
   return fmt::format("waits for a displacement {} {}, but set '{}' moves {} at most", comparison, format_quantity(value, "m"), set, format_quantity(*reach, "m"));
 }

@@ -32,21 +32,21 @@ template <class T>
 
 /// 1 - d. Exactly 1 up to the onset, exactly 0 from u_p on.
 template <class T>
-[[gnu::always_inline]] inline T soundness(const Softening<T>& law, Same<T> history) {
+[[gnu::always_inline]] inline T integrity(const Softening<T>& law, Same<T> history) {
   const T k = max(history, law.onset);
   return max(T(0), law.onset * (law.open - k) / (k * (law.open - law.onset)));
 }
 
 template <class T>
 T damage(const Softening<T>& law, Same<T> history) {
-  return T(1) - soundness(law, history);
+  return T(1) - integrity(law, history);
 }
 
 /// Pull between the faces, per area [Pa]. Negative in compression, which is elastic whatever the damage.
 template <class T>
 [[gnu::always_inline]] inline T traction(const Softening<T>& law, Same<T> opening, Same<T> history) {
-  const T sound = soundness(law, max(history, opening));
-  return select(opening < T(0), T(1), sound) * law.stiffness * opening;
+  const T left = integrity(law, max(history, opening));
+  return select(opening < T(0), T(1), left) * law.stiffness * opening;
 }
 
 /// Recoverable energy per area [J/m^2].

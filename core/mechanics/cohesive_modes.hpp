@@ -34,7 +34,7 @@ struct IndependentModes {
   template <class T>
   using History = Openings<T>;
   template <class T>
-  static History<T> sound() {
+  static History<T> undamaged() {
     return {T(0), T(0)};
   }
 
@@ -70,8 +70,8 @@ struct IndependentModes {
   [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const Openings<T>& history) const {
     const auto done = failed(history);
     T slid(0), opened(0);
-    if constexpr (slides) slid = select(done, T(0), soundness(as<T>(shear), history.shear));
-    if constexpr (opens) opened = select(opening.normal < T(0), T(1), select(done, T(0), soundness(as<T>(normal), history.normal)));
+    if constexpr (slides) slid = select(done, T(0), integrity(as<T>(shear), history.shear));
+    if constexpr (opens) opened = select(opening.normal < T(0), T(1), select(done, T(0), integrity(as<T>(normal), history.normal)));
     return {opened, slid};
   }
 
@@ -95,7 +95,7 @@ struct IndependentModes {
   template <class T>
   T released(const Openings<T>& opening, const Openings<T>& before, const Openings<T>& after) const {
     if constexpr (!releases) return T(0);
-    const Openings<T> left{soundness(as<T>(normal), after.normal), soundness(as<T>(shear), after.shear)};
+    const Openings<T> left{integrity(as<T>(normal), after.normal), integrity(as<T>(shear), after.shear)};
     const T held = held_energy(*this, T(1), Openings<T>{max(T(0), opening.normal), opening.shear}, left);
     return select(failed(before), T(0), select(failed(after), held, T(0)));
   }
@@ -124,11 +124,11 @@ struct MixedMode {
 
   template <class T>
   struct History {
-    T sound;  ///< smallest share of the stiffness so far, 1 - d
+    T integrity;  ///< smallest share of the stiffness so far, 1 - d
     T mix;    ///< B at the last accepted opening
   };
   template <class T>
-  static History<T> sound() {
+  static History<T> undamaged() {
     return {T(1), T(0)};
   }
 
@@ -157,26 +157,26 @@ struct MixedMode {
 
   template <class T>
   [[gnu::always_inline]] auto failed(const History<T>& history) const {
-    return history.sound <= T(0);
+    return history.integrity <= T(0);
   }
   template <class T>
   [[gnu::always_inline]] auto softens(const History<T>& history) const {
-    return history.sound < T(1);
+    return history.integrity < T(1);
   }
   bool slid(const History<Real>& history) const { return history.mix > 0.5; }
 
   template <class T>
   [[gnu::always_inline]] History<T> next(const Openings<T>& opening, const History<T>& history) const {
     const Mix<T> now = mix_of(opening);
-    return {min(history.sound, soundness(at_mix(now.share), now.size)), now.share};
+    return {min(history.integrity, integrity(at_mix(now.share), now.size)), now.share};
   }
   template <class T>
   [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const History<T>& history) const {
-    return {select(opening.normal < T(0), T(1), history.sound), history.sound};
+    return {select(opening.normal < T(0), T(1), history.integrity), history.integrity};
   }
   template <class T>
   T damage(const History<T>& history) const {
-    return T(1) - history.sound;
+    return T(1) - history.integrity;
   }
   template <class T>
   T dissipated(const History<T>&) const {
@@ -186,9 +186,9 @@ struct MixedMode {
   /// The integral of w^2/2 dd at the mix in the middle of the step: exact for openings in proportion, of second order else.
   template <class T>
   T released(const Openings<T>&, const History<T>& before, const History<T>& after) const {
-    const auto law = at_mix(select(before.sound < T(1), T(0.5) * (before.mix + after.mix), after.mix));
-    const auto way = [&](const T& sound) { return law.onset * (T(1) - sound) / (law.onset + sound * (law.open - law.onset)); };
-    return fracture_energy(law) * (way(after.sound) - way(before.sound));
+    const auto law = at_mix(select(before.integrity < T(1), T(0.5) * (before.mix + after.mix), after.mix));
+    const auto way = [&](const T& left) { return law.onset * (T(1) - left) / (law.onset + left * (law.open - law.onset)); };
+    return fracture_energy(law) * (way(after.integrity) - way(before.integrity));
   }
 
  private:
@@ -204,8 +204,8 @@ struct CohesiveHistory {
 };
 
 template <class Modes>
-CohesiveHistory<Modes, Real> sound_history() {
-  return {Modes::template sound<Real>(), 0};
+CohesiveHistory<Modes, Real> undamaged_history() {
+  return {Modes::template undamaged<Real>(), 0};
 }
 
 template <class Modes, class T>

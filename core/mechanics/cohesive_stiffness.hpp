@@ -7,17 +7,17 @@
 namespace beadwork {
 
 enum class CohesiveSlope {
-  sound,    ///< k0, as if nothing were damaged: what a time step must be stable for
+  undamaged,  ///< k0, as if nothing were damaged: what a time step must be stable for
   secant,   ///< F/u, never negative: a Newton iteration that does not diverge
   tangent,  ///< dF/du: -F_c/(u_p - u_e) while softening goes on
 };
 
 /// Stiffness per area of one mode at an opening, given the accepted history [N/m^3].
 inline Real traction_slope(const Softening<Real>& law, Real opening, Real history, CohesiveSlope slope) {
-  if (slope == CohesiveSlope::sound || opening < 0) return law.stiffness;
+  if (slope == CohesiveSlope::undamaged || opening < 0) return law.stiffness;
   const bool softens = opening >= history && opening > law.onset && opening < law.open;
   if (slope == CohesiveSlope::tangent && softens) return -law.stiffness * law.onset / (law.open - law.onset);
-  return law.stiffness * soundness(law, max(history, opening));
+  return law.stiffness * integrity(law, max(history, opening));
 }
 
 /// The normal law alone. The pull across the chord, F/l, is part of the secant and the tangent.
@@ -27,7 +27,7 @@ inline Matrix12 cohesive_stiffness(const Softening<Real>& law, const CohesiveRes
   const Vec3 n = d / l;
   const Real u_n = l - rest.length;
   const Real along = rest.area * traction_slope(law, u_n, history, slope);
-  const Real pull = slope == CohesiveSlope::sound ? 0 : rest.area * traction(law, u_n, history) / l;
+  const Real pull = slope == CohesiveSlope::undamaged ? 0 : rest.area * traction(law, u_n, history) / l;
   return stiffness::between_centres(along * (n * n.transpose()) + pull * stiffness::across(n));
 }
 
@@ -64,7 +64,7 @@ inline OpeningRows opening_rows(const CarriedFaces<Real>& at) {
 
 /// As if nothing were damaged: what a time step must be stable for. What the present forces add by turning is left out.
 template <class Modes, class Faces>
-Matrix12 sound_stiffness(const Modes& modes, const Faces& at, Real area) {
+Matrix12 undamaged_stiffness(const Modes& modes, const Faces& at, Real area) {
   const OpeningRows rows = opening_rows(at);
   Matrix12 k = Matrix12::Zero();
   if constexpr (Modes::opens) k += area * modes.normal.stiffness * rows.normal.transpose() * rows.normal;
@@ -77,7 +77,7 @@ template <CohesiveModes modes>
 Matrix12 cohesive_stiffness(const IndependentModes<modes>& laws, const CohesiveRest<Real>& rest, const PairFaces<Real>& at,
                             const Openings<Real>& history, CohesiveSlope slope) {
   const Openings<Real> next = laws.next(at.opening, history);
-  const bool failed = slope != CohesiveSlope::sound && laws.failed(next);
+  const bool failed = slope != CohesiveSlope::undamaged && laws.failed(next);
   Matrix12 k = Matrix12::Zero();
   if constexpr (IndependentModes<modes>::opens) {
     Softening<Real> normal = laws.normal;
@@ -86,7 +86,7 @@ Matrix12 cohesive_stiffness(const IndependentModes<modes>& laws, const CohesiveR
   }
   if constexpr (IndependentModes<modes>::slides) {
     if (failed) return k;
-    const Real secant = laws.shear.stiffness * soundness(laws.shear, slope == CohesiveSlope::sound ? 0 : next.shear);
+    const Real secant = laws.shear.stiffness * integrity(laws.shear, slope == CohesiveSlope::undamaged ? 0 : next.shear);
     Mat3 shear = secant * Mat3::Identity();
     if (at.opening.shear > 0) {
       const Vec3 way = at.slip / at.opening.shear;

@@ -332,13 +332,13 @@ class Watcher : public Plugin {
  public:
   static constexpr Kind kind = Kind::watch;
   Param<std::int64_t> every{
-      this, {.name = "every", .range = {1}, .doc = "Steps from one look to the next", .fallback = "100", .instead = "at"}};
+      this, {.name = "every", .range = {1}, .doc = "Steps from one record to the next", .fallback = "100", .instead = "at"}};
   Param<std::string> moments{
       this,
       {.name = "at",
-       .doc = "Moments of single looks, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
-              "(0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the stage, at which every watcher looks in any "
-              "case; beside 'every' or instead of it",
+       .doc = "Single moments to record, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
+              "(0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the stage, which is always recorded; beside "
+              "'every' or instead of it",
        .optional = true}};
   /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at' and to the end of the stage, and
   /// brings up to date what the watcher reads.

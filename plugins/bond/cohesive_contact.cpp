@@ -67,10 +67,10 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
   Keeps<Vec3> normal2{this, {"normal-2", On::bonds, "1", "Normal of the contact in the second element's body"}};
   Keeps<Real> largest_opening{this, {"largest-opening", On::bonds, "m", "Largest opening so far"}};
   Keeps<Real> largest_sliding{this, {"largest-sliding", On::bonds, "m", "Largest sliding so far"}};
-  Keeps<Real> soundness{this, {"soundness", On::bonds, "1", "Smallest share of the stiffness so far, 1 - damage"}};
+  Keeps<Real> integrity{this, {"integrity", On::bonds, "1", "Smallest share of the stiffness so far, 1 - damage"}};
   Keeps<Real> mix{this, {"mode-mix", On::bonds, "1", "Share of sliding in the energy of the last opening"}};
   Keeps<Real> parted{this, {"parted", On::bonds, "1", "1 when the faces have slid past one another"}};
-  Keeps<Real> let_go{this, {"let-go", On::bonds, "J", "Energy lost that no largest opening tells: to the other mode's failure, by coupled modes, by parting"}};
+  Keeps<Real> extra_dissipation{this, {"extra-dissipation", On::bonds, "J", "Energy dissipated beyond what the largest openings tell: when the other mode fails, by coupled modes, when the two faces lie too far apart"}};
   Writes<Real> damage{this, field::damage};
   Writes<Real> opening{this, opening_field};
   Writes<Real> sliding{this, sliding_field};
@@ -95,9 +95,9 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     length.want(!carried());
     largest_opening.want(opens && !coupled());
     largest_sliding.want(slides && !coupled());
-    soundness.want(coupled());
+    integrity.want(coupled());
     mix.want(coupled());
-    let_go.want(*modes == "both" || carried());
+    extra_dissipation.want(*modes == "both" || carried());
   }
 
   bool accepts(const Domain&, Index i, Index j) const override {
@@ -121,7 +121,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
       if (length) length[row] = apart.norm();
       area[row] = *area_radius == "mean" ? contact_area(radius[i], radius[j]) : contact_area_on_large(std::min(radius[i], radius[j]));
       sum += area[row];
-      if (soundness) soundness[row] = 1;
+      if (integrity) integrity[row] = 1;
       if (!arm1) continue;
       const ContactArms<Real> arms = contact_arms(apart, radius[i], radius[j], orientation[i], orientation[j]);
       arm1.set(row, arms.arm1);
@@ -148,7 +148,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
       ends.q1 = orientation[i];
       ends.q2 = orientation[j];
     }
-    return std::visit([&](const auto& value) { return value.sound(One{row, nullptr}, ends); }, law());
+    return std::visit([&](const auto& value) { return value.undamaged(One{row, nullptr}, ends); }, law());
   }
 
  protected:
@@ -261,7 +261,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
 
   CohesiveColumns columns() const {
     return {length.view(), area.view(), arm1.view(), arm2.view(), normal1.view(), normal2.view(), largest_opening.view(), largest_sliding.view(),
-            soundness.view(), mix.view(), parted.view(), let_go.view(), damage.view(), opening.view(), sliding.view()};
+            integrity.view(), mix.view(), parted.view(), extra_dissipation.view(), damage.view(), opening.view(), sliding.view()};
   }
 
   Real literal_area_ = 0;

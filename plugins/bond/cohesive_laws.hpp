@@ -11,9 +11,9 @@ struct CohesiveColumns {
   View<const Real> length, area;
   View<const Vec3> arm1, arm2, normal1, normal2;
   View<Real> largest_opening, largest_sliding;  // what independent modes remember
-  View<Real> soundness, mix;                    // what coupled modes remember
+  View<Real> integrity, mix;                    // what coupled modes remember
   View<Real> parted;                            // faces with a normal of their own
-  View<Real> let_go;
+  View<Real> extra_dissipation;
   View<Real> damage, opening, sliding;
 
   template <class At>
@@ -53,7 +53,7 @@ struct CohesiveOpening : CohesiveColumns {
     return at(area) * dissipated_per_area<Real>(law, at(largest_opening));
   }
 
-  Matrix12 sound(const One& at, const Ends<Real>& ends) const { return cohesive_stiffness(law, rest(at), ends.apart, 0, CohesiveSlope::sound); }
+  Matrix12 undamaged(const One& at, const Ends<Real>& ends) const { return cohesive_stiffness(law, rest(at), ends.apart, 0, CohesiveSlope::undamaged); }
   bool has_failed(const One& at) const { return at(largest_opening) >= law.open; }
   bool softens(const One& at) const { return at(largest_opening) > law.onset; }
   bool has_slid(const One&) const { return false; }
@@ -78,7 +78,7 @@ struct CohesiveFaces : CohesiveColumns {
     const auto before = recall(at);
     const auto now = cohesive_state<Modes>(modes, here, size, before);
     if constexpr (pass.settle) {
-      if constexpr (carried || Modes::releases) at.store(let_go, at(let_go) + cohesive_lost<Modes>(modes, here, size, before, now.after));
+      if constexpr (carried || Modes::releases) at.store(extra_dissipation, at(extra_dissipation) + cohesive_lost<Modes>(modes, here, size, before, now.after));
       remember(at, now.after);
       at.flag((modes.softens(now.after.modes) && !modes.softens(before.modes)) || (modes.failed(now.after.modes) && !modes.failed(before.modes)) ||
               now.after.parted > before.parted);
@@ -102,12 +102,12 @@ struct CohesiveFaces : CohesiveColumns {
   auto dissipated(const At& at) const {
     const auto softened = at(area) * modes.dissipated(recall(at).modes);
     if constexpr (carried || Modes::releases)
-      return softened + at(let_go);
+      return softened + at(extra_dissipation);
     else
       return softened;
   }
 
-  Matrix12 sound(const One& at, const TurningEnds<Real>& ends) const { return sound_stiffness(modes, faces(at, ends), at(area)); }
+  Matrix12 undamaged(const One& at, const TurningEnds<Real>& ends) const { return undamaged_stiffness(modes, faces(at, ends), at(area)); }
   bool has_failed(const One& at) const { return modes.failed(recall(at).modes) || recall(at).parted > 0; }
   bool softens(const One& at) const { return modes.softens(recall(at).modes); }
   /// Of a contact that has failed: by sliding, rather than by opening.
@@ -131,7 +131,7 @@ struct CohesiveFaces : CohesiveColumns {
     using T = typename At::Number;
     CohesiveHistory<Modes, T> history{{T(0), T(0)}, T(0)};
     if constexpr (Modes::coupled)
-      history.modes = {at(soundness), at(mix)};
+      history.modes = {at(integrity), at(mix)};
     else if constexpr (!Modes::slides)
       history.modes.normal = at(largest_opening);
     else if constexpr (!Modes::opens)
@@ -145,7 +145,7 @@ struct CohesiveFaces : CohesiveColumns {
   template <class At, class T>
   [[gnu::always_inline]] void remember(const At& at, const CohesiveHistory<Modes, T>& history) const {
     if constexpr (Modes::coupled) {
-      at.store(soundness, history.modes.sound);
+      at.store(integrity, history.modes.integrity);
       at.store(mix, history.modes.mix);
     } else {
       if constexpr (Modes::opens) at.store(largest_opening, history.modes.normal);

@@ -81,7 +81,7 @@ void go_on(const fs::path& root, const Domain& domain) {
   RunFolder folder = RunFolder::resume(root);
   auto curves = folder.made_in(folder.curves());
   std::erase_if(curves, [](const fs::path& file) { return file.extension() != ".csv"; });
-  const auto cuts = cuts_to({{"force", 100}}, curves);
+  const auto cuts = cuts_to({{"force", {100, "step [1],time [s],force [N]"}}}, curves);
   folder.clear_leftovers();
   Recorder recorder = Recorder::resume(folder, about, {}, domain, 100);
   cut(cuts);

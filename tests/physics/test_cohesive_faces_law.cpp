@@ -105,7 +105,7 @@ TEST(cohesive_faces, no_net_torque_and_nothing_changes_in_a_rigid_motion_or_with
   Random random(3);
   for (int trial = 0; trial < 200; ++trial) {
     const Contact c = moved_contact(random, 0.2);
-    const auto before = sound_history<Both>();
+    const auto before = undamaged_history<Both>();
     const auto one = act(both, faces(c, c.p), before);
     const Wrench<Real>& w = one.wrench;
     const Real scale = w.torque1.norm() + w.torque2.norm() + w.force.norm() * c.p.d().norm();
@@ -130,7 +130,7 @@ TEST(cohesive_faces, a_line_of_centres_at_any_angle_gives_strength_times_area_an
       const Real a = degrees * pi / 180;
       const Contact c = bonded({Vec3(0, 0, 0), 2 * Vec3(std::sin(a), 0, std::cos(a)), identity(), identity()}, Vec3(0, 0, 1));
       const Softening<Real>& mode = axis == 2 ? opens : slides;
-      auto history = sound_history<Both>();
+      auto history = undamaged_history<Both>();
       Real work = 0, before = 0, peak = 0;
       const int steps = 20000;
       for (int k = 1; k <= steps + 10; ++k) {
@@ -157,7 +157,7 @@ TEST(cohesive_faces, a_pair_that_is_slid_towards_its_line_of_centres_locks) {
   const auto arms = contact_arms(d, 1, 1, identity(), identity());
   const Real slid = 0.7 * slides.open;
   const auto at = pair_faces<Real>(d.norm(), arms, d - Vec3(slid, 0, 0), identity(), identity());
-  const auto now = cohesive_state(both, at, area, sound_history<Both>());
+  const auto now = cohesive_state(both, at, area, undamaged_history<Both>());
   EXPECT_GT(cohesive_wrench(both, at, area, now.share).force[0], 1.5 * slides.stiffness * slides.onset * area);
   EXPECT_FALSE(both.failed(now.after.modes));
 }
@@ -171,7 +171,7 @@ TEST(cohesive_faces, turning_a_fibre_about_its_axis_takes_shear_strength_times_a
   const auto at = faces(c, p);
   EXPECT_NEAR(at.opening.shear, slides.onset, 1e-14);
   EXPECT_NEAR(at.opening.normal, 0, 1e-15);
-  const auto now = act(both, at, sound_history<Both>());
+  const auto now = act(both, at, undamaged_history<Both>());
   EXPECT_NEAR(-now.wrench.torque1[2], slides.stiffness * slides.onset * area * R * std::cos(phi / 2), 1e-13);
 }
 
@@ -188,9 +188,9 @@ TEST(cohesive_faces, the_stiffness_is_the_derivative_of_the_force_of_a_closed_co
   const Contact c = moved_contact(random, 0);
   const auto check = [&](const auto& modes) {
     using Modes = std::remove_cvref_t<decltype(modes)>;
-    const auto forces = [&](const Pair& p) { return generalised(act(modes, faces(c, p), sound_history<Modes>()).wrench); };
+    const auto forces = [&](const Pair& p) { return generalised(act(modes, faces(c, p), undamaged_history<Modes>()).wrench); };
     const Matrix12 expected = -jacobian(forces, c.p);
-    EXPECT_LT((sound_stiffness(modes, faces(c, c.p), area) - expected).norm(), 1e-8 * expected.norm());
+    EXPECT_LT((undamaged_stiffness(modes, faces(c, c.p), area) - expected).norm(), 1e-8 * expected.norm());
     EXPECT_GT((expected.block<3, 3>(3, 3).norm()), 1);  // it resists turning
   };
   check(normal);
@@ -223,7 +223,7 @@ TEST(cohesive_faces, the_time_step_knows_that_the_elements_turn) {
     const Contact c{{Vec3(0, 0, 0), Vec3(0, 0, 2 * R), identity(), identity()},
                     contact_arms(Vec3(0, 0, 2 * R), R, R, identity(), identity()),
                     carried_normals(n, identity(), identity())};
-    return bond_lambda(sound_stiffness(modes, faces(c, c.p), area), inverse_mass);
+    return bond_lambda(undamaged_stiffness(modes, faces(c, c.p), area), inverse_mass);
   };
   EXPECT_NEAR(lambda(Vec3(0, 0, 1), normal), 2 * kn / m, 1e-10);
   EXPECT_NEAR(lambda(Vec3(0, 0, 1), both), 7 * ks / m, 1e-10);
@@ -235,7 +235,7 @@ TEST(cohesive_faces, part_when_they_have_slid_by_their_diameter_and_then_do_noth
   const Contact c = bonded({Vec3(0, 0, 0), Vec3(0, 0, 2), identity(), identity()}, Vec3(0, 0, 1));
   const Both brief{opens, {40, 0.15, 0.4}};
   const Real diameter = 2 * std::sqrt(area / pi);
-  auto history = sound_history<Both>();
+  auto history = undamaged_history<Both>();
   Real work = 0, lost = 0, kept = 0;
   Vec3 at = zero<Vec3>(), force = zero<Vec3>();
   const auto go = [&](const Vec3& to, int steps) {
@@ -273,7 +273,7 @@ TEST(cohesive_faces, part_when_one_turns_over_and_are_numbers_even_then) {
   const Contact c = bonded({Vec3(0, 0, 0), Vec3(0, 0, 2), identity(), identity()}, Vec3(0, 0, 1));
   Pair p = c.p;
   p.q2 = Quat{0, Vec3(1, 0, 0)};
-  const auto now = act(normal, faces(c, p), sound_history<Normal>());
+  const auto now = act(normal, faces(c, p), undamaged_history<Normal>());
   EXPECT_EQ(now.after.parted, 1);
   EXPECT_EQ(generalised(now.wrench).norm(), 0);
 }
@@ -283,10 +283,10 @@ TEST(cohesive_faces, an_oscillating_contact_keeps_energy_and_both_momenta_while_
   Pair p = c.p;
   Vec3 v1(0, -0.02, 0), v2(0.05, 0.02, 0.01), w1(0, 0.02, 0.03), w2(0, 0, 0.03);
   const Real dt = 1e-3, inertia = 0.4;
-  const auto acting = [&] { return act(both, faces(c, p), sound_history<Both>()).wrench; };
+  const auto acting = [&] { return act(both, faces(c, p), undamaged_history<Both>()).wrench; };
   const auto energy = [&] {
     return 0.5 * (v1.squaredNorm() + v2.squaredNorm() + inertia * (w1.squaredNorm() + w2.squaredNorm())) +
-           stored(both, faces(c, p), sound_history<Both>());
+           stored(both, faces(c, p), undamaged_history<Both>());
   };
   const auto spin = [&]() -> Vec3 { return cross(p.x1, v1) + cross(p.x2, v2) + inertia * (w1 + w2); };
   const Real start = energy();

@@ -113,7 +113,7 @@ TEST(cohesion, a_jump_past_the_final_opening_in_one_step_breaks_and_dissipates_a
 
 TEST(cohesion, a_brittle_law_still_dissipates_exactly_its_energy) {
   const Softening<Real> brittle{1e9, 1e-8, 1};
-  EXPECT_EQ(soundness(brittle, 1e-8), 1);
+  EXPECT_EQ(integrity(brittle, 1e-8), 1);
   EXPECT_NEAR(dissipated_per_area(brittle, 0.5), 0.5 * fracture_energy(brittle), 1e-7);
   EXPECT_EQ(dissipated_per_area(brittle, 1.), fracture_energy(brittle));
 }
@@ -339,7 +339,7 @@ TEST(cohesion, a_closed_contact_has_the_stiffness_of_both_modes) {
     return generalised(act(both, c.arms, at.d(), at.q1, at.q2, {0, 0}).wrench);
   };
   const Matrix12 expected = -jacobian(forces, c.p);
-  for (const auto slope : {CohesiveSlope::sound, CohesiveSlope::secant, CohesiveSlope::tangent}) {
+  for (const auto slope : {CohesiveSlope::undamaged, CohesiveSlope::secant, CohesiveSlope::tangent}) {
     const Matrix12 found =
         cohesive_stiffness(both, rest, state(c, c.p), {0, 0}, slope);
     EXPECT_LT((found - expected).norm(), 1e-8 * expected.norm());
@@ -350,8 +350,8 @@ TEST(cohesion, the_stiffness_for_a_time_step_is_that_of_the_sound_law) {
   Random random(8);
   const Contact c = moved_contact(random, 0.1);
   const auto at = state(c, c.p);
-  const Matrix12 expected = cohesive_stiffness(both, rest, at, {0, 0}, CohesiveSlope::sound);
-  EXPECT_LT((sound_stiffness(both, at, rest.area) - expected).norm(), 1e-14 * expected.norm());
+  const Matrix12 expected = cohesive_stiffness(both, rest, at, {0, 0}, CohesiveSlope::undamaged);
+  EXPECT_LT((undamaged_stiffness(both, at, rest.area) - expected).norm(), 1e-14 * expected.norm());
 }
 
 TEST(cohesion, an_opened_contact_slides_more_easily_by_the_share_that_turns_with_the_line_of_centres) {
@@ -388,7 +388,7 @@ TEST(cohesion, a_softening_contact_has_a_negative_slope_and_a_positive_secant) {
   EXPECT_NEAR(traction_slope(law, 0.5, 0.5 + 1e-9, CohesiveSlope::tangent), traction(law, 0.5, 0.5) / 0.5,
               1e-6);
   EXPECT_NEAR(traction_slope(law, 0.5, 0.3, CohesiveSlope::secant), traction(law, 0.5, 0.3) / 0.5, 1e-14);
-  EXPECT_EQ(traction_slope(law, 0.5, 0.3, CohesiveSlope::sound), 60);
+  EXPECT_EQ(traction_slope(law, 0.5, 0.3, CohesiveSlope::undamaged), 60);
   EXPECT_EQ(traction_slope(law, 2, 0, CohesiveSlope::tangent), 0);
   EXPECT_EQ(traction_slope(law, -1, 2, CohesiveSlope::tangent), 60);
 }

@@ -44,7 +44,7 @@ Followed follow(const MixedMode& law, const Path& path, int steps) {
     const Acted now = act(law, to, f.memory);
     f.work += 0.5 * ((old.pull + now.pull) * (to.normal - u.normal) + (old.drag + now.drag) * (to.shear - u.shear));
     f.released += now.released;
-    EXPECT_LE(now.after.sound, f.memory.sound);
+    EXPECT_LE(now.after.integrity, f.memory.integrity);
     EXPECT_GE(now.released, -1e-15);
     f.memory = now.after;
     f.peak_criterion = std::max(f.peak_criterion, std::pow(std::max(now.pull, 0.) / 6, 2) + std::pow(now.drag / 8, 2));
@@ -67,7 +67,7 @@ TEST(mixed_mode, openings_in_proportion_dissipate_the_energy_of_the_criterion) {
     const auto way = [&](Real s) { return Openings<Real>{20 * s * direction(B).normal, 20 * s * direction(B).shear}; };
     for (const auto& [law, energy] : {std::pair(linear, 1 / ((1 - B) / 3 + B / 8)), std::pair(kenane, 3 + 5 * std::pow(B, 2.284))}) {
       const Followed f = follow(law, way, 100000);
-      EXPECT_EQ(f.memory.sound, 0) << B;
+      EXPECT_EQ(f.memory.integrity, 0) << B;
       EXPECT_NEAR(f.work, energy, 1e-5 * energy) << B;
       EXPECT_NEAR(f.released, energy, 1e-12 * energy) << B;
       EXPECT_NEAR(f.peak_criterion, 1, 1e-2) << B;                         // onset: (t_n/6)^2 + (t_s/8)^2 = 1
@@ -88,7 +88,7 @@ TEST(mixed_mode, unloads_to_the_origin_and_is_pressed_undamaged) {
   const Acted back = act(kenane, {0.2, 0.15}, torn.after);
   EXPECT_NEAR(back.pull, torn.pull / 2, 1e-14);
   EXPECT_NEAR(back.drag, torn.drag / 2, 1e-14);
-  EXPECT_EQ(back.after.sound, torn.after.sound);
+  EXPECT_EQ(back.after.integrity, torn.after.integrity);
   EXPECT_EQ(back.released, 0);
   EXPECT_EQ(act(kenane, {-0.1, 0}, torn.after).pull, -6);
   EXPECT_EQ(act(kenane, {-0.1, 0}, {0, 0}).pull, -6);  // failed: a contact
@@ -102,7 +102,7 @@ TEST(mixed_mode, the_balance_of_energy_closes_on_any_path_of_second_order_in_the
   const auto off = [&](int steps) {
     const Followed f = follow(kenane, path, steps);
     const Openings<Real> end = path(1), share = kenane.share(end, f.memory);
-    EXPECT_GT(f.memory.sound, 0);
+    EXPECT_GT(f.memory.integrity, 0);
     EXPECT_GT(f.released, 1);
     return std::abs(f.work - f.released - held_energy(kenane, Real(1), end, share)) / f.work;
   };

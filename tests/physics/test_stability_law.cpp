@@ -199,7 +199,7 @@ TEST(stability, one_stiff_contact_sets_the_step_and_is_named) {
   const Vec3 d = s.x[101] - s.x[100];
   const Softening<Real> stiff{1e4, 0.1, 1};
   const CohesiveRest<Real> rest{d.norm(), 1};
-  s.network.add(100, 101, cohesive_stiffness(stiff, rest, d, 0, CohesiveSlope::sound));
+  s.network.add(100, 101, cohesive_stiffness(stiff, rest, d, 0, CohesiveSlope::undamaged));
   const auto step = stable_step(s.network, s.mobility());
   EXPECT_LT(step.dt, 0.2 * before.dt);
   EXPECT_TRUE(step.mode.element == 100 || step.mode.element == 101);

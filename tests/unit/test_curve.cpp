@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<CurveColumn> time_and_force = {{"time", "s"}, {"force", "N"}};
+const std::string time_and_force_line = "step [1],time [s],force [N]";
 
 Curve fresh_curve(const fs::path& file) { return Curve::fresh(file, time_and_force); }
 
@@ -62,15 +63,15 @@ TEST(Curve, numbers_read_back_to_the_same_bits) {
 
 TEST(Curve, a_resumed_curve_loses_the_rows_after_the_checkpoint_and_goes_on) {
   const Scratch scratch;
-  std::uintmax_t length = 0;
+  CurveEnd end;
   {
     Curve curve = fresh_curve(scratch / "force.csv");
     for (int step = 0; step <= 500; step += 100) {
       add(curve, step, step, 1);
-      if (step == 200) length = curve.length();
+      if (step == 200) end = curve.end();
     }
   }
-  cut(cuts_to({{"force", length}}, {scratch / "force.csv"}));
+  cut(cuts_to({{"force", end}}, {scratch / "force.csv"}));
   Curve curve = Curve::resume(scratch / "force.csv", time_and_force);
   add(curve, 300, 300, 2);
   EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n0,0,1\n100,100,1\n200,200,1\n300,300,2\n");
@@ -78,15 +79,15 @@ TEST(Curve, a_resumed_curve_loses_the_rows_after_the_checkpoint_and_goes_on) {
 
 TEST(Curve, of_several_rows_of_one_step_those_before_the_checkpoint_stay) {
   const Scratch scratch;
-  std::uintmax_t length = 0;
+  CurveEnd end;
   {
     Curve curve = fresh_curve(scratch / "force.csv");
     for (int row = 0; row < 3; ++row) {
       add(curve, 100, 0, row);
-      if (row == 1) length = curve.length();
+      if (row == 1) end = curve.end();
     }
   }
-  cut(cuts_to({{"force", length}}, {scratch / "force.csv"}));
+  cut(cuts_to({{"force", end}}, {scratch / "force.csv"}));
   EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n100,0,0\n100,0,1\n");
 }
 
@@ -94,7 +95,7 @@ TEST(Curve, one_that_the_checkpoint_does_not_know_begins_anew) {
   const Scratch scratch;
   Curve late = fresh_curve(scratch / "late.csv");
   add(late, 100, 1, 2);
-  cut(cuts_to({{"force", 1000}}, {scratch / "late.csv"}));
+  cut(cuts_to({{"force", {1000, time_and_force_line}}}, {scratch / "late.csv"}));
   EXPECT_EQ(text_of(scratch / "late.csv"), "step [1],time [s],force [N]\n");
 }
 
@@ -105,10 +106,25 @@ TEST(Curve, a_torn_last_row_is_dropped_wherever_it_was_torn) {
   for (std::size_t cut = 0; cut < last.size(); ++cut) {
     for (const std::size_t known : {whole.size(), whole.size() + 100}) {  // rows that the checkpoint knew of may have been lost
       write_text(scratch / "force.csv", whole + last.substr(0, cut));
-      beadwork::cut(cuts_to({{"force", known}}, {scratch / "force.csv"}));
+      beadwork::cut(cuts_to({{"force", {known, time_and_force_line}}}, {scratch / "force.csv"}));
       EXPECT_EQ(text_of(scratch / "force.csv"), whole) << "torn after " << cut;
     }
   }
+}
+
+TEST(Curve, one_whose_columns_the_checkpoint_knows_otherwise_is_refused_before_anything_is_cut) {
+  const Scratch scratch;
+  for (const char* name : {"force.csv", "other.csv"}) {
+    Curve curve = fresh_curve(scratch / name);
+    add(curve, 100, 1, 2);
+  }
+  const std::string before = text_of(scratch / "force.csv");
+  const auto said = message_of<MachineFailure>([&] {
+    cut(cuts_to({{"force", {28, time_and_force_line}}, {"other", {28, "step [1],time [s],force [kN]"}}}, {scratch / "force.csv", scratch / "other.csv"}));
+  });
+  EXPECT_THAT(said, HasSubstr("other.csv"));
+  EXPECT_THAT(said, HasSubstr("force [kN]"));
+  EXPECT_EQ(text_of(scratch / "force.csv"), before);
 }
 
 TEST(Curve, a_curve_with_other_columns_is_refused_with_both_lines) {
@@ -170,7 +186,7 @@ TEST(Curve, a_kill_loses_no_row_but_the_one_being_written) {
         },
         1000 + 700 * trial);
     if (!fs::exists(file)) continue;
-    cut(cuts_to({{"force", 1 << 30}}, {file}));
+    cut(cuts_to({{"force", {1 << 30, time_and_force_line}}}, {file}));
     std::ifstream in(file);
     std::string row;
     std::getline(in, row);

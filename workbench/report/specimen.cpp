@@ -157,7 +157,7 @@ void draw_bonds(Canvas& canvas, const Stage& stage, const record::Frame& frame, 
     canvas.sphere(place(i), frame.radius[i], palette::body);
   canvas.darken_hollows(4 * mean_radius(frame));
   canvas.fade(0.38F);
-  // Broken over softening over elastic: what went wrong is never hidden by what is sound.
+  // Broken over softening over elastic: what went wrong is never hidden by what is whole.
   for (const State state : {State::intact, State::softening, State::broken}) {
     canvas.flatten();
     for (const record::Bonds& bonds : frame.bonds) {

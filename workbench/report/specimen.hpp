@@ -24,7 +24,7 @@ constexpr Color sets[] = {color(0xD3D3D3), color(0xA3AAA0), color(0xA9C8A4), col
 
 enum class Show {
   bodies,  ///< the elements, deformed, tinted where their bonds soften or are broken
-  bonds,   ///< the interface and every bond that is no longer sound, over a faint specimen that is not
+  bonds,   ///< the interface and every bond that is damaged, over a faint specimen that is not
            ///< deformed
 };
 
