@@ -218,9 +218,10 @@ bool in_shared_loop() { return inside; }
 
 void parallel::share(std::int64_t count, void (*piece)(const void*, std::int64_t, std::int64_t), const void* loop) {
   if (inside) return piece(loop, 0, count);
+  threads_in_use();  // decides how many, where nobody has; it takes the lock for that
   const std::unique_lock lock(leading, std::try_to_lock);
   if (!lock.owns_lock()) return piece(loop, 0, count);  // another thread leads already
-  if (!team) team = std::make_unique<Team>(threads_in_use());
+  if (!team) team = std::make_unique<Team>(wanted);
   team->share(count, piece, loop);
 }
 

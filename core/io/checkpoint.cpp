@@ -87,11 +87,11 @@ CheckpointMeta load_meta(hid_t place) {
   meta.version = h5::text_attribute(group.id(), "version");
   meta.deck_sha256 = h5::text_attribute(group.id(), "deck_sha256");
   const std::int64_t stage = h5::integer_attribute(group.id(), "stage");
-  if (stage < 0 || stage > std::numeric_limits<Index>::max()) throw MachineFailure(fmt::format("stage {} is none", stage));
+  if (stage < 0 || stage > std::numeric_limits<Index>::max()) throw MachineFailure(fmt::format("its stage is {}, which no run can have", stage));
   meta.stage = static_cast<Index>(stage);
   meta.time = h5::real_attribute(group.id(), "time");
   meta.step = h5::integer_attribute(group.id(), "step");
-  if (meta.step < 0 || !std::isfinite(meta.time)) throw MachineFailure(fmt::format("step {} at {} s is none", meta.step, meta.time));
+  if (meta.step < 0 || !std::isfinite(meta.time)) throw MachineFailure(fmt::format("it is of step {} at {} s, which no run can have", meta.step, meta.time));
   meta.seed = static_cast<std::uint64_t>(h5::integer_attribute(group.id(), "seed"));
   meta.resolved = h5::read_text(group.id(), "resolved");
   const auto keys = h5::read_texts(group.id(), "keys");

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <fstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace beadwork {
 
@@ -112,7 +113,7 @@ void Curve::add(std::int64_t step, std::span<const Real> values) {
   const off_t before = ::lseek(descriptor_.number(), 0, SEEK_END);
   const int error = write_all(descriptor_.number(), row_.data(), row_.size());
   if (error == 0) return;
-  if (before >= 0 && ::ftruncate(descriptor_.number(), before) != 0) errno = error;  // half a row is worse than none
+  if (before >= 0) std::ignore = ::ftruncate(descriptor_.number(), before);  // half a row is worse than none
   throw file_failure("write", file_, error);
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <tuple>
 
 #include "core/base/text.hpp"
 
@@ -98,7 +99,7 @@ void Manifest::claim(const std::string& file) {
   int error = write_all(open_.number(), line.data(), line.size());
   if (error == 0 && ::fdatasync(open_.number()) != 0 && errno != EINVAL) error = errno;
   if (error != 0) {
-    if (end < 0 || ::ftruncate(open_.number(), end) != 0) errno = error;
+    if (end >= 0) std::ignore = ::ftruncate(open_.number(), end);
     throw file_failure("write", list, error);
   }
   add(file);

@@ -127,7 +127,8 @@ class PackingTable {
   // numpy and others put the names of the columns into a remark.
   void take_remark(std::string_view text, std::size_t offset) {
     if (!form_.columns.empty()) return;
-    const auto words = cells(text, offset, true);
+    auto words = cells(text, offset, true);
+    while (!words.empty() && words.front().text.ends_with(':')) words.erase(words.begin());  // "columns: x y z radius"
     unsigned places = 0;
     bool size = false;
     for (const Cell& word : words) {

@@ -68,6 +68,7 @@ std::vector<std::string> Scene::files() const {
     for (const ParamBase* p : plugin->params())
       if (p->info().role == Role::file)
         for (const std::string& path : p->names()) all.push_back(path);
+  all.insert(all.end(), libraries.begin(), libraries.end());
   return all;
 }
 
@@ -176,7 +177,7 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage) {
 }
 
 std::unique_ptr<Plugin> Assembly::make(Kind kind, const std::string& tag, const Location& at) {
-  if (const std::string library = catalogue_.named_library(kind, tag); !library.empty()) libraries_.insert(library);
+  if (const std::string library = catalogue_.named_library(kind, tag); !library.empty()) scene_.libraries.insert(library);
   return catalogue_.make(kind, tag, at.where());
 }
 

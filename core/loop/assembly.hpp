@@ -80,7 +80,6 @@ class Assembly {
   };
   std::map<std::string, Hope> hopes_;  ///< what 'until' and 'at' wait for, by place
   std::vector<Until::Prospect> endless_;  ///< of stages that would never end
-  std::set<std::string> libraries_;    ///< that a deck has to name, of the plugins in use
   std::map<std::string, int> counts_;
   // One mistake, one message: what follows only from a tag, an attribute or a value that could not be read is not told too.
   std::set<Kind> unread_kinds_;         ///< sections in which something could not be read

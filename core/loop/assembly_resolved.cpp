@@ -10,7 +10,7 @@ void Assembly::resolve() {
   const Node& root = *deck_.root;
   const auto place = [&](const char* name) { return root.find(name) ? root.find(name)->value_at : root.at; };
   PlainNode plain{"scene", {{"name", scene_.name, place("name")}, {"seed", std::to_string(scene_.seed), place("seed")}}, {}, root.at};
-  if (!libraries_.empty()) plain.attributes.push_back({"plugins", text_of_paths({libraries_.begin(), libraries_.end()}), place("plugins")});
+  if (!scene_.libraries.empty()) plain.attributes.push_back({"plugins", text_of_paths({scene_.libraries.begin(), scene_.libraries.end()}), place("plugins")});
   std::size_t plugins = 0, stages = 0;
   resolve_sections(root, plain, plugins, stages);
   scene_.resolved = resolved_xml(plain);

@@ -38,7 +38,7 @@ void check_elements(const Filler& by, const Domain& domain) {
   for (Index row = 0; row < domain.size(); ++row) {
     const Vec3 x = position[row];
     if (!(x.cwiseAbs().maxCoeff() <= farthest) || !x.allFinite())
-      blame(by, fmt::format("left element {} at {} {} {} m: no place that can be computed with", row, x.x(), x.y(), x.z()));
+      blame(by, fmt::format("left element {} at {} {} {} m: not a finite place, or too far away to compute with", row, x.x(), x.y(), x.z()));
   }
   for (const char* name : {"radius", "mass", "inertia"}) check_positive(by, domain, name);
   for (const auto& [name, set] : domain.sets()) check_set(by, name, set, domain.size());

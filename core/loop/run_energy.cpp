@@ -123,14 +123,14 @@ void Run::check_balance() {
   const Mover& mover = scene_.stages[stage_number()].mover();
   const auto verdict = ledger_.look(sums, initial_energy_, mover.swing(), round_off());
   if (verdict == Ledger::Verdict::balanced) return;
-  const auto surplus = fmt::format("the energy balance holds {:.4g} J that nobody brought, {:.3g} {} the {:.4g} J that were brought at most",
+  const auto surplus = fmt::format("the energy balance has an excess of {:.4g} J that no work accounts for, {:.3g} {} the largest input so far, {:.4g} J",
                                    ledger_.gained(), verdict == Ledger::Verdict::gains ? 100 * ledger_.gained() / ledger_.brought() : ledger_.gained() / ledger_.brought(),
                                    verdict == Ledger::Verdict::gains ? "% of" : "times", ledger_.brought());
   if (verdict == Ledger::Verdict::gains) {
     if (ledger_.tells()) options_.warn(fmt::format("step {}: {}; {}", moment_.step, surplus, mover.suspect()));
     return;
   }
-  throw PhysicsFailure(fmt::format("step {}: {}, and gains more; element {} is the fastest; {}", moment_.step, surplus, fastest_element(domain()), mover.suspect()));
+  throw PhysicsFailure(fmt::format("step {}: {}, and it grows; element {} is the fastest; {}", moment_.step, surplus, fastest_element(domain()), mover.suspect()));
 }
 
 // Where loads prescribe something, what else could move as a whole is named.

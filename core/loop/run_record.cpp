@@ -190,6 +190,8 @@ void Run::load() {
   has_checkpoint_ = true;
   saved_step_ = meta.step;
   former_summary_ = ended_summary();
+  if (meta.version != version)
+    options_.warn(fmt::format("this run was written by beadwork {}, and goes on with {}: its results may be other bits than those of either alone", meta.version, version));
   options_.say(fmt::format("resumed at step {}", moment_.step));
 }
 
@@ -199,7 +201,7 @@ void Run::check_restored(const CheckpointMeta& meta) const {
     if (wrong) throw MachineFailure(fmt::format("cannot read checkpoint '{}': {}", folder_.checkpoint().string(), what));
   };
   const auto stages = scene_.stages.size();
-  refuse_if(static_cast<std::size_t>(meta.stage) >= stages, fmt::format("stage {} is none of {}", meta.stage, stages));
+  refuse_if(static_cast<std::size_t>(meta.stage) >= stages, fmt::format("it is of stage {}, the deck has {}", meta.stage + 1, stages));
   refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(), "its report on the packing is not whole");
   refuse_if(!meta.texts.contains("free-bodies") || !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), scene_.domain->size()),
             "what it says of free bodies is not whole");
@@ -216,7 +218,7 @@ void Run::check_restored(const CheckpointMeta& meta) const {
   refuse_if(!(number("time-step") >= 0), "its time step is negative");
   refuse_if(!(number("stage-step") >= 0 && number("stage-step") <= static_cast<Real>(meta.step)), "its stage begins at no step before it");
   const auto watchers = static_cast<Real>(scene_.stages[static_cast<std::size_t>(meta.stage)].watchers.size());
-  refuse_if(!(number("looks-owed") >= 0 && number("looks-owed") <= watchers), "it owes looks to watchers that there are not");
+  refuse_if(!(number("looks-owed") >= 0 && number("looks-owed") <= watchers), "it counts more watchers than the deck has");
 }
 
 // What the run that is resumed says of its end; nothing if it was killed before it could.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/domain/order.hpp"
 #include "core/loop/blame.hpp"
+#include "core/loop/bounded_json.hpp"
 #include "core/loop/connect.hpp"
 #include "core/loop/handed_over.hpp"
 #include "core/loop/run.hpp"
@@ -19,7 +21,10 @@ void Run::fill() {
   job.seed = scene_.seed;
   job.say = options_.say;
   job.warn = options_.warn;
-  job.report = [&](const std::string& json) { figures_.packing_reports.push_back(json); };
+  job.report = [&](const std::string& json) {
+    if (!bounded_json(json).is_object()) throw std::invalid_argument("its packing report is no JSON object: " + json.substr(0, 100));
+    figures_.packing_reports.push_back(json);
+  };
   job.in_progress = &in_progress;
   job.pause = [&] { pause(); };
   job.progress = options_.progress;

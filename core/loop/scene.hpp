@@ -54,6 +54,7 @@ class Scene {
   std::vector<Filler*> fillers;
   std::vector<Derived*> derived;
   std::vector<Stage> stages;
+  std::set<std::string> libraries;                                ///< of the plugins in use, those that a deck has to name
   std::vector<std::string> families;                              ///< names, in the order of their tables
   std::unique_ptr<Domain> domain;                                 ///< with every column that the plugins ask for, and no rows yet
   std::set<const Plugin*> section_readers;                        ///< plugins that read what bond laws offer of each bond
@@ -62,7 +63,7 @@ class Scene {
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;
-  /// Paths of the files that the deck names, for data.
+  /// Paths of the files on which a run depends beside the deck: of data, and plugin libraries that are not the program's own.
   std::vector<std::string> files() const;
   const std::set<const Plugin*>& readers_of(const Derived& provider) const { return derived_for.at(&provider); }
 };

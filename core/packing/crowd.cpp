@@ -58,7 +58,6 @@ void scale_radii(Crowd& crowd, Real factor) {
 void Neighbours::build(const Crowd& crowd) {
   list_ = neighbours_of(near_pairs(crowd, skin_), crowd.ball.size());
   built_for_ = crowd.ball;
-  ++builds_;
 }
 
 const NeighbourList& Neighbours::after(const Crowd& crowd, Real worst) {

@@ -52,12 +52,10 @@ class Neighbours {
     const Ball &now = crowd.ball[i], &then = built_for_[i];
     return (now.x - then.x).norm() + std::max(Real(0), now.r - then.r);
   }
-  int builds() const { return builds_; }
 
  private:
   void build(const Crowd&);
   Real skin_;
-  int builds_ = 0;
   std::vector<Ball> built_for_;
   NeighbourList list_;
 };

@@ -215,7 +215,7 @@ class Mover : public Plugin {
   /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not the energy itself but
   /// the energy less this [J].
   virtual Real swing() const { return 0; }
-  /// What is probably wrong where the balance gains energy that nobody brought.
+  /// What is probably wrong where the balance has an excess of energy that no work accounts for.
   virtual std::string suspect() const { return "a law's force is probably not the slope of its stored energy"; }
   /// For `plan`: the time step [s] and what limits it.
   virtual Real time_step() const = 0;

@@ -69,6 +69,13 @@ expect 0 -- "$beadwork" run "$deck" --plugins "$work/it's here/my ropes.so" --ou
 expect 0 -- env -C / "$beadwork" run "$work/named/resolved.xml" --out "$work/again" --threads 1
 cmp "$work/out/curves/force.csv" "$work/again/curves/force.csv" && cmp "$work/named/resolved.xml" "$work/again/resolved.xml" || fail "the resolved deck is another one"
 
+echo "a resume knows a library that has changed"
+cp "$work/it's here/my ropes.so" "$work/original"
+printf 'another build' >>"$work/it's here/my ropes.so"
+expect 2 "my ropes.so has changed since the run began" -- "$beadwork" run "$deck" --plugins "$work/it's here/my ropes.so" --out "$work/named" --threads 1 --resume
+cp "$work/original" "$work/it's here/my ropes.so"
+expect 0 -- "$beadwork" run "$deck" --plugins "$work/it's here/my ropes.so" --out "$work/named" --threads 1 --resume
+
 echo "what is told of bonds holds for a law of one's own: dashpots, for one"
 expect 0 -- "$beadwork" run "$source/tests/architecture/installed_package/damped.xml" --plugins "$ropes" --out "$work/damped" --threads 1
 /usr/bin/python3 - "$work/damped/curves/energy.csv" <<'END' || fail "dashpots take another share of the energy than their damping ratio says"

@@ -34,7 +34,7 @@ testing::DeckRun rope(const std::string& stated, const std::string& until) {
 TEST(EnergyWatch, stops_a_law_whose_tangent_is_too_small_below_the_step_that_it_promises) {
   const auto run = rope("0.7", "20000");
   EXPECT_THAT(run.failure, HasSubstr("tangent")) << run.summary.at("quality").dump(1);
-  EXPECT_THAT(run.failure, HasSubstr("that nobody brought"));
+  EXPECT_THAT(run.failure, HasSubstr("that no work accounts for"));
   EXPECT_EQ(run.summary.at("status"), "failed");
 }
 

@@ -94,6 +94,7 @@ TEST(PackingFile, the_deck_may_say_what_the_columns_hold) {
 }
 
 TEST(PackingFile, a_remark_names_the_columns_where_it_can) {
+  expect_two_elements("# columns: x y z r\n0 0 0 0.001\n0.002 0.0005 -0.001 0.00075\n");
   expect_two_elements("# made by a script\n# r x y z\n1 0 0 0\n.75 2 .5 -1\n", {.unit = "mm"});
   expect_two_elements("# x of the elements stands first\n0 0 0 1\n2 .5 -1 .75\n", {.unit = "mm"});
   EXPECT_THAT(refusal_of("# x y z and the radius\n0 0 0 1\n"), HasSubstr(":2:1: error: a line holds 6 columns"));

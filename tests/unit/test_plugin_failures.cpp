@@ -17,10 +17,13 @@ using testing::Scratch;
 
 std::string trap;        // the function that throws
 bool throws_42 = false;  // instead of an exception
+std::string words;       // of the exception, where not the usual ones
+std::string report;      // that the filler hands over
 
 void trip(const std::string& function) {
   if (function != trap) return;
   if (throws_42) throw 42;
+  if (words != "") throw std::runtime_error(words);
   throw std::runtime_error("the wire was touched");
 }
 
@@ -45,8 +48,9 @@ class WiredFill final : public Wired<Filler> {
   static constexpr const char* about = "Makes two elements and a set";
   Param<std::string> set{this, {.name = "set", .doc = "Set", .role = Role::makes_set}};
   WiredFill() : Wired("fill") {}
-  void fill(Domain& domain, const FillJob&) override {
+  void fill(Domain& domain, const FillJob& job) override {
     wire("fill");
+    if (!report.empty()) job.report(report);
     const Index first = domain.add_elements(2);
     for (Index k = first; k < first + 2; ++k) {
       domain.elements().column("position").view<Vec3>().set(k, Vec3(2. * k, 0, 0));
@@ -211,6 +215,26 @@ TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
   trap.clear();
   const Scratch scratch;
   EXPECT_NO_THROW(run_deck(scratch));
+}
+
+TEST(PluginFailures, in_words_that_are_no_text_do_not_hide_the_failure) {
+  const Scratch scratch;
+  trap = "move step", throws_42 = false, words = "a \xFF wire";
+  EXPECT_NE(testing::message_of<PhysicsFailure>([&] { run_deck(scratch); }).find("plugin move.wired"), std::string::npos);
+  EXPECT_NE(testing::text_of(scratch / "out/summary.json").find("a \uFFFD wire"), std::string::npos);
+  trap.clear(), words.clear();
+}
+
+TEST(PluginFailures, of_a_filler_whose_report_is_no_json_are_its_own) {
+  for (const std::string wrong : {"{\"x\": nan}", "{\"x\": \"\xFF\"}", "[1]", ""}) {
+    const Scratch scratch;
+    report = wrong.empty() ? std::string(5000, '[') : wrong;
+    EXPECT_NE(testing::message_of<PhysicsFailure>([&] { run_deck(scratch); }).find("plugin fill.wired failed"), std::string::npos) << wrong;
+  }
+  report = "{\"x\": 1}";
+  const Scratch scratch;
+  EXPECT_NO_THROW(run_deck(scratch));
+  report.clear();
 }
 
 // The system's loader would die of most of these.

@@ -1,6 +1,7 @@
-"""Usage: damaged.py RUN went-on | odd-states
+"""Usage: damaged.py RUN went-on STEPS | older | odd-states
 
-went-on: the run went on with a new record, and its summary says so.
+went-on: the run went on with a new record, and its summary says so, also after going on once more.
+older: the checkpoint now says that another version wrote it.
 odd-states: a checkpoint whose check sum fits and whose numbers do not is refused, and all is left as it was."""
 import json
 import subprocess
@@ -19,10 +20,14 @@ run = Path(sys.argv[1])
 
 def went_on():
     summary = json.loads((run / "summary.json").read_text())
-    assert summary["status"] == "done" and summary["steps"] == 300, summary
+    assert summary["status"] == "done" and summary["steps"] == int(sys.argv[3]), summary
     assert "run.h5 is damaged" in summary["notes"][0], summary["notes"]
     with h5py.File(run / "run.h5") as file:
-        assert list(file["frames"])[-1] == "000000000300" and "000000000000" not in file["frames"], list(file["frames"])
+        assert list(file["frames"])[-1] == f"{int(sys.argv[3]):012}" and "000000000000" not in file["frames"], list(file["frames"])
+
+
+def older():
+    edit_checkpoint(run / "checkpoint.h5", lambda root: root["meta"].attrs.__setitem__("version", "0.0.9"))
 
 
 def files():
@@ -53,4 +58,4 @@ def odd_states():
         assert files() == before, name
 
 
-{"went-on": went_on, "odd-states": odd_states}[sys.argv[2]]()
+{"went-on": went_on, "older": older, "odd-states": odd_states}[sys.argv[2]]()
