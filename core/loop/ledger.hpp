@@ -28,7 +28,7 @@ class Ledger {
   /// `swing`: of the scheme (Mover::swing); `noise`: no more than round-off [J].
   Verdict look(const EnergySums& sums, Real initial, Real swing, Real noise) {
     note_work(sums.worked, initial);
-    const Real beyond = sums.beyond_work() - initial;
+    const Real beyond = sums.beyond_work() - initial + lost_at_breaks_;
     largest_swing_ = std::max(largest_swing_, swing);
     smallest_swing_ = std::min(smallest_swing_, swing);  // where it began below zero, it comes up from there
     const Real before = gained_;
@@ -38,6 +38,11 @@ class Ledger {
     return gained_ > stopped_from * brought_ + noise && gained_ > before ? Verdict::runs_away : Verdict::gains;
   }
 
+  /// Where something breaks, the forces jump, and the scheme keeps the energy less what follows from them (Mover::shadow_energy): what a jump
+  /// adds to that is lost to the balance, by the size of the step. docs/theory/bond-failure.md
+  void note_break(Real shadow_before, Real shadow_after) { lost_at_breaks_ += shadow_after - shadow_before; }
+
+  Real lost_at_breaks() const { return lost_at_breaks_; }  ///< [J]
   Real brought() const { return brought_; }      ///< largest so far: |work| + |what was there| [J]
   Real gained() const { return gained_; }        ///< at the last look, beyond that and beyond the swing [J]
   Real deviation() const { return deviation_; }  ///< largest so far by which the balance failed to close, either way [J]
@@ -48,11 +53,11 @@ class Ledger {
   /// What is to be kept over a restart: f(name, number).
   template <class F>
   void each(const F& f) {
-    f("brought", brought_), f("gained", gained_), f("deviation", deviation_), f("swing", largest_swing_), f("swing-below", smallest_swing_), f("told", told_);
+    f("brought", brought_), f("gained", gained_), f("deviation", deviation_), f("swing", largest_swing_), f("swing-below", smallest_swing_), f("told", told_), f("lost-at-breaks", lost_at_breaks_);
   }
 
  private:
-  Real brought_ = 0, gained_ = 0, deviation_ = 0, largest_swing_ = 0, smallest_swing_ = 0, told_ = 0;
+  Real brought_ = 0, gained_ = 0, deviation_ = 0, largest_swing_ = 0, smallest_swing_ = 0, told_ = 0, lost_at_breaks_ = 0;
 };
 
 }  // namespace beadwork

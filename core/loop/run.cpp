@@ -155,7 +155,7 @@ void Run::step() {
   blaming(stage().mover(), moment_, [&] { stage().mover().step(*this); });
   if (rates_are_read_) complete();
   for (const auto& [law, table] : laws_) figures_.bond_updates += live_[table];
-  log_events();
+  heed_events();
   break_bonds();
   for (Load* load : stage().loads) blaming(*load, moment_, [&] { load->account(domain(), moment_); });
   whole_ = true;
@@ -165,11 +165,11 @@ void Run::step() {
   former_summary_.reset();  // from here on it is this session that ends, one way or another
 }
 
-// So that what summary.json says of a failed run's energies stands for one moment.
+// So that what summary.json says of a failed run's energies stands for one moment, and its quality knows of them.
 void Run::complete_if_possible() {
   if (!whole_) return;
   try {
-    complete();
+    look_at_balance();
   } catch (const std::exception&) {  // the failure that is being reported came first
   }
 }
@@ -216,20 +216,25 @@ bool Run::reads_rates(const Stage& stage) const {
   return std::any_of(stage.loads.begin(), stage.loads.end(), reads) || std::any_of(stage.failures.begin(), stage.failures.end(), reads);
 }
 
-// Changes that a law itself has made while settling, such as a contact that opened.
-void Run::log_events() {
+// Changes that a law itself has made while settling, such as a contact that opened. What it carried was part of the step.
+void Run::heed_events() {
   for (auto& [law, table] : laws_) {
     const auto events = blaming(*law, moment_, [&, law = law] { return law->events(); });
     if (events.empty()) continue;
+    complete();
+    const Real shadow = stage().mover().shadow_energy();
     BreakLog& log = domain().breaks();
     const auto x = domain().elements().column("position").view<Vec3>();
     for (const BondEvent& event : events) {
       check_rows({&event.row, 1}, table->size(), "bonds that changed", *law, moment_);
+      blaming(*law, moment_, [&, law = law, table = table] { law->end(domain(), *table, event.row); });
+      if (event.mode.empty()) continue;
       const Vec3 place = 0.5 * (x[table->first()[event.row]] + x[table->second()[event.row]]);
       log.breaks.push_back({moment_.time, moment_.step, static_cast<Index>(std::find(scene_.families.begin(), scene_.families.end(), table->name()) - scene_.families.begin()),
                             table->id()[event.row], log.mode(event.mode), place, event.energy});
       if (table->state()[event.row] == State::broken && !law->acts_when_broken()) offered_.clear(*table, event.row);
     }
+    ledger_.note_break(shadow, stage().mover().shadow_energy());
   }
 }
 
@@ -247,6 +252,7 @@ void Run::break_bonds() {
   }
   if (verdicts.empty()) return;
   complete();  // with the forces of the bonds that break
+  const Real shadow = stage().mover().shadow_energy();
   std::set<BondTable*> touched;
   const auto x = domain().elements().column("position").view<Vec3>();
   BreakLog& log = domain().breaks();
@@ -267,6 +273,7 @@ void Run::break_bonds() {
       touched.insert(table);
     }
   }
+  ledger_.note_break(shadow, stage().mover().shadow_energy());
   for (BondTable* table : touched) {
     table->sweep();
     live_[table] = table->live();

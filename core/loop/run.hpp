@@ -92,7 +92,7 @@ class Run final : private Workings, private Sight {
   void complete_if_possible();
   bool reads_rates(const Stage& stage) const;
   void break_bonds();
-  void log_events();
+  void heed_events();
   Verdict judge(Failure& failure);
   void look(std::size_t first = 0);
   void look_at_end();
@@ -152,6 +152,7 @@ class Run final : private Workings, private Sight {
   Real beyond_work() const;
   void note_work();
   void check_balance();
+  Ledger::Verdict look_at_balance();
   void find_free_motions();
   void look_at_quality(const EnergySums& sums);
   QualityFigures quality() const;

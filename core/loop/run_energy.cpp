@@ -114,15 +114,19 @@ void Run::note_work() {
   quality_.note_load(largest_force(constraints()), !domain().breaks().breaks.empty());
 }
 
-// Energy from nothing is told once, and ends the run where there is more of it than was ever brought and it grows.
-void Run::check_balance() {
+Ledger::Verdict Run::look_at_balance() {
   complete();
   EnergySums sums;
   energies(sums);
   look_at_quality(sums);
-  const Mover& mover = scene_.stages[stage_number()].mover();
-  const auto verdict = ledger_.look(sums, initial_energy_, mover.swing(), round_off());
+  return ledger_.look(sums, initial_energy_, scene_.stages[stage_number()].mover().swing(), round_off());
+}
+
+// Energy from nothing is told once, and ends the run where there is more of it than was ever brought and it grows.
+void Run::check_balance() {
+  const auto verdict = look_at_balance();
   if (verdict == Ledger::Verdict::balanced) return;
+  const Mover& mover = scene_.stages[stage_number()].mover();
   const auto surplus = fmt::format("the energy balance has an excess of {:.4g} J that no work accounts for, {:.3g} {} the largest input so far, {:.4g} J",
                                    ledger_.gained(), verdict == Ledger::Verdict::gains ? 100 * ledger_.gained() / ledger_.brought() : ledger_.gained() / ledger_.brought(),
                                    verdict == Ledger::Verdict::gains ? "% of" : "times", ledger_.brought());

@@ -65,10 +65,10 @@ struct IndependentModes {
     return {select(done, history.normal, max(history.normal, opening.normal)), select(done, history.shear, max(history.shear, opening.shear))};
   }
 
-  /// Share of the stiffness that acts in each mode; the history includes the present opening.
-  template <class T>
-  [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const Openings<T>& history) const {
-    const auto done = failed(history);
+  /// Share of the stiffness that acts in each mode; the history includes the present opening. `done`: the contact had failed by the step
+  /// before. In the step in which it fails what the other mode holds still acts, and goes at the end of it.
+  template <class T, class Mask>
+  [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const Openings<T>& history, const Mask& done) const {
     T slid(0), opened(0);
     if constexpr (slides) slid = select(done, T(0), integrity(as<T>(shear), history.shear));
     if constexpr (opens) opened = select(opening.normal < T(0), T(1), select(done, T(0), integrity(as<T>(normal), history.normal)));
@@ -170,8 +170,8 @@ struct MixedMode {
     const Mix<T> now = mix_of(opening);
     return {min(history.integrity, integrity(at_mix(now.share), now.size)), now.share};
   }
-  template <class T>
-  [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const History<T>& history) const {
+  template <class T, class Mask>
+  [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const History<T>& history, const Mask&) const {
     return {select(opening.normal < T(0), T(1), history.integrity), history.integrity};
   }
   template <class T>
@@ -200,7 +200,9 @@ struct MixedMode {
 template <class Modes, class T>
 struct CohesiveHistory {
   typename Modes::template History<T> modes;
-  T parted;  ///< 1 for faces that have slid past one another: nothing acts between them for good
+  /// 1 for faces that have slid past one another: nothing acts between them for good. 0.5 in the step in which they part: what acts
+  /// between them is part of that step, and goes at the end of it.
+  T parted;
 };
 
 template <class Modes>
@@ -214,21 +216,26 @@ struct CohesiveState {
   CohesiveHistory<Modes, T> after;  ///< if this state is accepted
 };
 
+template <class Modes, class T>
+[[gnu::always_inline]] inline T holding(const CohesiveHistory<Modes, T>& before) {
+  return select(before.parted > T(0), T(0), T(1));
+}
+
 /// The opening that a contact feels: none once its faces have parted.
 template <class Modes, class Faces, class T>
 [[gnu::always_inline]] inline Openings<T> felt_opening(const Faces& at, const CohesiveHistory<Modes, T>& before) {
   if constexpr (!Faces::part) return at.opening;
-  const T holds = T(1) - before.parted;
+  const T holds = holding(before);
   return {holds * at.opening.normal, holds * at.opening.shear};
 }
 
-/// Whether the faces part in this state: turned over, or slid past one another with nothing left to hold them. What resists no sliding
-/// may slide by the final opening too. A mask.
+/// Whether the faces part in this state: turned over, or slid past one another with nothing left to hold them by the step before. What resists
+/// no sliding may slide by the final opening too. A mask.
 template <class Modes, class T>
 [[gnu::always_inline]] inline auto part_now(const Modes& modes, const CarriedFaces<T>& at, Same<T> area,
-                                            const typename Modes::template History<T>& next) {
+                                            const typename Modes::template History<T>& before) {
   if constexpr (Modes::slides)
-    return (have_slid_past(at, area, T(0)) && modes.failed(next)) || have_turned_over(at);
+    return (have_slid_past(at, area, T(0)) && modes.failed(before)) || have_turned_over(at);
   else
     return have_slid_past(at, area, T(modes.normal.open)) || have_turned_over(at);
 }
@@ -239,12 +246,13 @@ template <class Modes, class Faces, class T>
                                                                      const CohesiveHistory<Modes, T>& before) {
   const Openings<T> opening = felt_opening(at, before);
   const auto next = modes.next(opening, before.modes);
-  const Openings<T> share = modes.share(opening, next);
+  const Openings<T> share = modes.share(opening, next, modes.failed(before.modes));
   if constexpr (!Faces::part) {
     return {share, {next, before.parted}};
   } else {
-    const T parted = select(part_now(modes, at, area, next), T(1), before.parted);
-    return {{(T(1) - parted) * share.normal, (T(1) - parted) * share.shear}, {next, parted}};
+    const T holds = holding(before);
+    const T parted = holds * select(part_now(modes, at, area, before.modes), T(0.5), T(0)) + (T(1) - holds) * before.parted;
+    return {{holds * share.normal, holds * share.shear}, {next, parted}};
   }
 }
 
@@ -261,8 +269,8 @@ template <class Modes, class Faces, class T>
 T cohesive_lost(const Modes& modes, const Faces& at, Same<T> area, const CohesiveHistory<Modes, T>& before,
                 const CohesiveHistory<Modes, T>& after) {
   const Openings<T> opening = felt_opening(at, before);
-  const T held = held_energy(modes, area, opening, modes.share(opening, after.modes));
-  return area * modes.released(opening, before.modes, after.modes) + (after.parted - before.parted) * held;
+  const T held = held_energy(modes, area, opening, modes.share(opening, after.modes, modes.failed(after.modes)));
+  return area * modes.released(opening, before.modes, after.modes) + select(after.parted > before.parted, held, T(0));
 }
 
 }  // namespace beadwork

@@ -5,6 +5,7 @@
 //   template <Pass pass, class At, class T> Wrench<T> act(const At& at, const Ends<T>& ends) const;
 //   template <class At, class T> T stored(const At& at, const Ends<T>& ends) const;      // recoverable energy [J]
 //   template <class At> auto dissipated(const At& at) const;                              // if it takes any [J]
+//   Wrench<Real> ended(const One& at, const Ends<Real>& ends) const;                      // if forces end abruptly (BondLaw::end)
 //
 // `Ends<T>` has how far the ends are apart. Only a law that says so sees more, and names what it sees: with `turns` it takes
 // `TurningEnds<T>`, with
@@ -162,6 +163,19 @@ class BondLawOf : public std::conditional_t<(beadwork::moves<Laws>() || ...), Mo
           const Index j = table.second()[row];
           bool ignored = false;
           e.add<Law::turns>(i, j, value.template act<Pass{}>(One{row, &ignored}, e.ends<Law>(i, j)), -1);
+        },
+        law());
+  }
+
+  void end(Domain& domain, BondTable& table, Index row) override {
+    std::visit(
+        [&]<class Law>(const Law& value) {
+          if constexpr (requires { &Law::ended; }) {
+            const auto e = ElementLines::of(domain);
+            const Index i = table.first()[row];
+            const Index j = table.second()[row];
+            e.add<Law::turns>(i, j, value.ended(One{row, nullptr}, e.ends<Law>(i, j)), -1);
+          }
         },
         law());
   }

@@ -67,7 +67,7 @@ struct Evaluation {
 /// A bond that changed for good while settling.
 struct BondEvent {
   Index row;
-  std::string mode;
+  std::string mode;  ///< under which its break is logged; "" of a change that is no break
   Real energy;  ///< [J]
 };
 
@@ -103,6 +103,9 @@ class BondLaw : public Plugin {
   virtual void withdraw(Domain& domain, const BondTable& table, Index row) = 0;
   /// Bonds whose state changed while settling in the last `act`; empty at nearly all steps.
   virtual std::span<const BondEvent> events() const { return {}; }
+  /// After such an event, once the step is complete: takes off the sums what acted in this step and acts no more from here on. A force that
+  /// ended within a step would take half a step's work from the balance.
+  virtual void end(Domain&, BondTable&, Index /*row*/) {}
   /// Recoverable energy of one bond [J].
   virtual Real stored_energy(const Domain& domain, const BondTable& table, Index row) const = 0;
   /// Sum over the live bonds, in a fixed order [J].
@@ -215,6 +218,8 @@ class Mover : public Plugin {
   /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not the energy itself but
   /// the energy less this [J].
   virtual Real swing() const { return 0; }
+  /// The part of it that follows from the present forces alone, and so jumps where something breaks [J].
+  virtual Real shadow_energy() const { return 0; }
   /// What is probably wrong where the balance has an excess of energy that no work accounts for.
   virtual std::string suspect() const { return "a law's force is probably not the slope of its stored energy"; }
   /// For `plan`: the time step [s] and what limits it.

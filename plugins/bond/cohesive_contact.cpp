@@ -69,7 +69,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
   Keeps<Real> largest_sliding{this, {"largest-sliding", On::bonds, "m", "Largest sliding so far"}};
   Keeps<Real> integrity{this, {"integrity", On::bonds, "1", "Smallest share of the stiffness so far, 1 - damage"}};
   Keeps<Real> mix{this, {"mode-mix", On::bonds, "1", "Share of sliding in the energy of the last opening"}};
-  Keeps<Real> parted{this, {"parted", On::bonds, "1", "1 when the faces have slid past one another"}};
+  Keeps<Real> parted{this, {"parted", On::bonds, "1", "1 when the faces have slid past one another, 0.5 in the step in which they do"}};
   Keeps<Real> extra_dissipation{this, {"extra-dissipation", On::bonds, "J", "Energy dissipated beyond what the largest openings tell: when the other mode fails, by coupled modes, when the two faces lie too far apart"}};
   Writes<Real> damage{this, field::damage};
   Writes<Real> opening{this, opening_field};
@@ -151,6 +151,11 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     return std::visit([&](const auto& value) { return value.undamaged(One{row, nullptr}, ends); }, law());
   }
 
+  void end(Domain& domain, BondTable& table, Index row) override {
+    BondLawOf::end(domain, table, row);
+    if (parted && parted[row] > 0) parted[row] = 1;
+  }
+
  protected:
   AnyLaw law() const override { return carried() ? law_of<true>() : law_of<false>(); }
 
@@ -165,6 +170,8 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
               if (state != State::broken && value.has_failed(one)) {
                 state = State::broken;
                 events.push_back({b, value.has_slid(one) ? "slid" : "opened", value.dissipated(one)});
+              } else if (value.parts(one)) {
+                events.push_back({b, "", 0});
               } else if (state == State::intact && value.softens(one)) {
                 state = State::softening;
               }

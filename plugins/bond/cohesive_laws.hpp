@@ -57,6 +57,7 @@ struct CohesiveOpening : CohesiveColumns {
   bool has_failed(const One& at) const { return at(largest_opening) >= law.open; }
   bool softens(const One& at) const { return at(largest_opening) > law.onset; }
   bool has_slid(const One&) const { return false; }
+  bool parts(const One&) const { return false; }
 
  private:
   template <class T>
@@ -86,10 +87,22 @@ struct CohesiveFaces : CohesiveColumns {
     if constexpr (pass.sections) {
       if (opening) at.store(opening, here.opening.normal);
       if (sliding) at.store(sliding, here.opening.shear);
-      if (damage) at.store(damage, max(modes.damage(now.after.modes), now.after.parted));
+      if (damage) at.store(damage, select(now.after.parted > T(0), T(1), modes.damage(now.after.modes)));
     }
     return cohesive_wrench(modes, here, size, now.share);
   }
+
+  /// Forces of this step that act no more from its end on: of a mode that held until the other failed, or of faces that part.
+  Wrench<Real> ended(const One& at, const TurningEnds<Real>& ends) const {
+    const auto here = faces(at, ends);
+    const auto history = recall(at);
+    const bool done = modes.failed(history.modes);
+    const Openings<Real> after = modes.share(here.opening, history.modes, done);
+    if (parts(history)) return cohesive_wrench(modes, here, at(area), after);
+    const Openings<Real> before = modes.share(here.opening, history.modes, false);
+    return cohesive_wrench(modes, here, at(area), Openings<Real>{before.normal - after.normal, before.shear - after.shear});
+  }
+  bool parts(const One& at) const { return parts(recall(at)); }
 
   template <class At, class T>
   T stored(const At& at, const TurningEnds<T>& ends) const {
@@ -117,6 +130,8 @@ struct CohesiveFaces : CohesiveColumns {
   }
 
  private:
+  static bool parts(const CohesiveHistory<Modes, Real>& history) { return history.parted > 0 && history.parted < 1; }
+
   template <class At, class T>
   [[gnu::always_inline]] auto faces(const At& at, const TurningEnds<T>& ends) const {
     const ContactArms<T> arms{at(arm1), at(arm2)};

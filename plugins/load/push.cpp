@@ -14,10 +14,12 @@ class Push final : public Load {
 
   Adds<Vec3> forces{this, field::force};
   Adds<Vec3> torques{this, field::torque};
-  Reads<Vec3> velocity{this, field::velocity};
+  Reads<Vec3> position{this, field::position};
   Reads<Vec3> spin{this, field::spin};
   Keeps<Real> work{this, {"work", On::scene, "J", "Work of the force so far"}};
-  Keeps<Real> power{this, {"power", On::scene, "W", "Power at the last step"}};
+  Keeps<Vec3> place{this, {"place", On::scene, "m", "Mean place of the set at the last step"}};
+  Keeps<Real> strong{this, {"strength", On::scene, "1", "Share of the force that acted at the last step"}};
+  Keeps<Real> power{this, {"power", On::scene, "W", "Power of the torque at the last step"}};
   Keeps<Real> began{this, {"began", On::scene, "s", "Time at which it set in"}};
   Keeps<Real> begun{this, {"begun", On::scene, "1", "1 once it has set in"}};
 
@@ -29,7 +31,7 @@ class Push final : public Load {
   void push(Domain& domain, const Moment& moment) override {
     if (begun[0] == 0) began[0] = moment.time;
     begun[0] = 1;
-    if (moment.step == moment.stage_step) power[0] = power_now(domain, moment);
+    if (moment.step == moment.stage_step) note(domain, moment);
     const Set& members = domain.set(*set);
     const Real share = strength(moment) / static_cast<Real>(members.size());
     for (const Index row : members) {
@@ -38,25 +40,28 @@ class Push final : public Load {
     }
   }
 
-  // The trapezoid of the power: of the order of the scheme itself.
+  // Of the force the trapezoid over the way of the places, which is what the scheme gives the motion; of the torque that of the power.
   void account(const Domain& domain, const Moment& moment) override {
-    const Real now = power_now(domain, moment);
-    work[0] += 0.5 * (power[0] + now) * moment.time_step;
-    power[0] = now;
+    const Vec3 from = place[0];
+    const Real before = strong[0], power_before = power[0];
+    note(domain, moment);
+    work[0] += 0.5 * (before + strong[0]) * force->dot(place[0] - from) + 0.5 * (power_before + power[0]) * moment.time_step;
   }
 
   void energy(EnergySink& sink) const override { sink.work(*set, work[0]); }
 
  private:
-  Real power_now(const Domain& domain, const Moment& moment) const {
+  void note(const Domain& domain, const Moment& moment) {
     const Set& members = domain.set(*set);
-    const Real share = strength(moment) / static_cast<Real>(members.size());
-    Real now = 0;
+    const auto count = static_cast<Real>(members.size());
+    strong[0] = strength(moment);
+    Vec3 sum = Vec3::Zero(), spins = Vec3::Zero();
     for (const Index row : members) {
-      now += share * force->dot(velocity[row]);
-      if (spin) now += share * torque->dot(spin[row]);
+      sum += position[row];
+      if (spin) spins += spin[row];
     }
-    return now;
+    place.set(0, sum / count);
+    power[0] = strong[0] * torque->dot(spins) / count;
   }
 
   // A push that stands in several stages sets in once.

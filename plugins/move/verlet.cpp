@@ -10,6 +10,7 @@
 #include "plugins/move/dashpots.hpp"
 #include "plugins/move/grips.hpp"
 #include "plugins/move/local_damping.hpp"
+#include "plugins/move/rayleigh.hpp"
 #include "plugins/move/shadow.hpp"
 #include "plugins/move/stability_watch.hpp"
 #include "plugins/move/stable_step.hpp"
@@ -39,6 +40,7 @@ class Verlet final : public Mover {
   Keeps<Real> damped{this, {"damped", On::scene, "J", "Energy taken by damping"}};
   Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
   Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided which elements without bonds a grip leaves out"}};
+  Keeps<Real> rayleigh{this, {"rayleigh", On::scene, "1", "Rayleigh quotient of the motion at the last look, times a quarter of the squared step: 1 is beyond any step"}};
   Keeps<Real> stable{this, {"stable-step", On::scene, "s", "Largest stable step when the stage began"}};
 
   void choose_rotations(bool wanted) override {
@@ -97,18 +99,20 @@ class Verlet final : public Mover {
     heed_breaks(w);
     grips_.before_advance(w, position_);
     if (*beta < 1) beta_damping_.remember(motion());
+    if ((now.step + 1) % watched_every == 0) quotient_.remember(motion());
     advance_all(w);
     grips_.after_advance(w, position_, mass.view(), *beta);
     now.time += now.time_step;
     ++now.step;
     laws_move_ ? evaluate_foreseen(w) : w.evaluate(true);
     const Real taken_by_local = damp(w);
+    if (quotient_.remembers()) rayleigh[0] = quotient_.of_step(motion(), grips_, dt_);
     grips_.react(w, places(), turns(), *beta);
     behind_ = true;
-    if (*beta < 1 || dashpots_.any() || laws_move_ || now.step % 100 == 0) complete(w);
+    if (*beta < 1 || dashpots_.any() || laws_move_ || now.step % watched_every == 0) complete(w);
     if (*beta < 1) damped[0] += beta_damping_.taken(motion(), grips_, *beta);
     book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()) + power_of_laws(w));
-    if (now.step % 100 == 0 && std::isfinite(stable[0])) StabilityWatch(w, motion(), stable[0]).look();  // something was bonded
+    if (now.step % watched_every == 0 && std::isfinite(stable[0])) StabilityWatch(w, motion(), stable[0]).look();  // something was bonded
   }
 
   void complete(Workings& w) override {
@@ -128,7 +132,11 @@ class Verlet final : public Mover {
                  *beta);
     if (*local_damping > 0 || *bond_damping > 0 || *beta < 1 || damped[0] != 0) sink.dissipated("damping", damped[0]);
   }
-  Real swing() const override { return shadow(motion(), grips_, dt_, *local_damping) - dashpots_.lag(motion(), dt_); }
+  // A motion that no step resolves has no such excuse: its energy can grow while energy less swing stays as it is.
+  Real swing() const override {
+    return rayleigh[0] < beyond_steps ? shadow(motion(), grips_, dt_, *local_damping) - dashpots_.lag(motion(), dt_) : 0;
+  }
+  Real shadow_energy() const override { return shadow(motion(), grips_, dt_, 0); }
   std::string suspect() const override { return suspect_step(dt_ / stable[0]); }
 
  private:
@@ -249,11 +257,15 @@ class Verlet final : public Mover {
     return damp_locally(motion(), grips_, *local_damping, 0.5 * *beta * w.moment().time_step);
   }
 
+  static constexpr std::int64_t watched_every = 100;  // steps
+  static constexpr Real beyond_steps = 0.95;          // of the Rayleigh quotient: a step found by itself stays below 0.8
+
   Index count_ = 0;
   View<Vec3> position_;
   Grips grips_;
   Dashpots dashpots_;
   BetaDamping beta_damping_;
+  RayleighQuotient quotient_;
   bool behind_ = false;          // velocities stand half a step behind the places
   bool laws_move_ = false;       // some law of the stage reads velocities
   std::vector<Vec3> half_way_;   // velocities and spins, while laws see others

@@ -247,7 +247,7 @@ TEST(cohesive_faces, part_when_they_have_slid_by_their_diameter_and_then_do_noth
       work -= 0.5 * (force + now.wrench.force).dot((to - from) / steps);
       lost += now.lost;
       history = now.after;
-      force = now.wrench.force;
+      force = act(brief, faces(c, p), history).wrench.force;  // what acts no more goes at the end of the step
       kept = stored(brief, faces(c, p), history);
     }
     at = to;
@@ -259,7 +259,7 @@ TEST(cohesive_faces, part_when_they_have_slid_by_their_diameter_and_then_do_noth
   EXPECT_NEAR(force[0], 0, 1e-13);
   EXPECT_NEAR(work, kept + lost + area * brief.dissipated(history.modes), 1e-6 * work);
   go(Vec3(1.01 * diameter, 0, -0.05), 100);
-  EXPECT_EQ(history.parted, 1);
+  EXPECT_GT(history.parted, 0);
   EXPECT_EQ(force.norm(), 0);
   EXPECT_NEAR(work, lost + area * brief.dissipated(history.modes), 1e-6 * work);
   const Real all = lost + area * brief.dissipated(history.modes);
@@ -274,11 +274,11 @@ TEST(cohesive_faces, part_when_one_turns_over_and_are_numbers_even_then) {
   Pair p = c.p;
   p.q2 = Quat{0, Vec3(1, 0, 0)};
   const auto now = act(normal, faces(c, p), undamaged_history<Normal>());
-  EXPECT_EQ(now.after.parted, 1);
+  EXPECT_GT(now.after.parted, 0);
   EXPECT_EQ(generalised(now.wrench).norm(), 0);
 }
 
-TEST(cohesive_faces, an_oscillating_contact_keeps_energy_and_both_momenta_while_it_is_sound) {
+TEST(cohesive_faces, an_oscillating_contact_keeps_energy_and_both_momenta_while_it_is_undamaged) {
   const Contact c = bonded({Vec3(0, 0, 0), Vec3(1.2, 0, 1.6), identity(), identity()}, Vec3(0, 0, 1));
   Pair p = c.p;
   Vec3 v1(0, -0.02, 0), v2(0.05, 0.02, 0.01), w1(0, 0.02, 0.03), w2(0, 0, 0.03);

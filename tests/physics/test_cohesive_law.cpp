@@ -286,12 +286,12 @@ TEST(cohesion, the_energy_balance_closes_when_one_mode_takes_the_other_along) {
                               CohesiveHistory<Both, Real>{history, 0.}, CohesiveHistory<Both, Real>{now.history, 0.});
     work -= 0.5 * (before + now.wrench.force).dot(next - d);
     history = now.history;
-    before = now.wrench.force;
+    before = act(both, arms, next, identity(), identity(), history).wrench.force;  // what the other mode held goes at the end of the step
     d = next;
   }
   ASSERT_TRUE(both.failed(history));
-  EXPECT_GT(released, 0);
-  EXPECT_NEAR(work, rest.area * both.dissipated(history) + released, 1e-4 * work);
+  EXPECT_GT(released, 0.01 * work);
+  EXPECT_NEAR(work, rest.area * both.dissipated(history) + released, 1e-7 * work);
 }
 
 TEST(cohesion, shear_alone_dissipates_its_own_fracture_energy) {

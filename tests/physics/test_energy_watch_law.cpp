@@ -44,6 +44,33 @@ TEST(EnergyWatch, lets_the_same_law_be_where_it_states_all) {
   EXPECT_THAT(run.warned, IsEmpty());
 }
 
+// What velocity Verlet keeps, energy less dt^2/8 sum |F|^2/m, it keeps beyond the critical step too, while the energy itself grows without end.
+// The fastest mode of a fixed and a pulled chain of 8: omega^2 = 4 k/m sin^2(6 pi/14), k of springs of 10 GPa between spheres of 1 mm.
+constexpr Real chain_mass = 2000 * 4 / 3.0 * pi * 1e-9, chain_stiffness = 10e9 * pi * 1e-6 / 2e-3;
+testing::DeckRun chain_at(const std::string& bond, const std::string& mover, int steps) {
+  const char* ends = R"(<hold set="left" axes="x"/><hold set="bar" axes="y z"/><pull set="right" axis="x" velocity="0.05 m/s" rise="0.1 ms"/>)";
+  return testing::run_deck(chain(bond, ends, mover, fmt::format("{}", steps), 8));
+}
+const Real critical_step = 2 / std::sqrt(4 * chain_stiffness / chain_mass) / std::sin(6 * pi / 14);
+
+TEST(EnergyWatch, a_chain_beyond_its_step_is_noticed_although_its_shadow_energy_stays) {
+  const auto beyond = chain_at(R"(<spring name="s" between="bar bar" young="10 GPa"/>)", fmt::format(R"(time-step="{} s")", 1.00005 * critical_step), 2000);
+  EXPECT_THAT(beyond.failure, HasSubstr("that no work accounts for"));
+  EXPECT_EQ(beyond.summary.at("quality").at("verdict"), "poor");
+  const auto within = chain_at(R"(<spring name="s" between="bar bar" young="10 GPa"/>)", fmt::format(R"(time-step="{} s")", 0.9 * critical_step), 2000);
+  EXPECT_EQ(within.failure, "");
+  EXPECT_THAT(within.warned, IsEmpty());
+}
+
+TEST(EnergyWatch, a_tangent_just_too_small_is_noticed_before_the_excess_is_as_large_as_the_work) {
+  // 'safety' 0.9 of the stated limit is 1.00005 of the true one
+  const auto stated = [](Real share) { return fmt::format(R"(<understated-rope name="s" between="bar bar" stiffness="{} N/m" stated="{}"/>)", chain_stiffness, share); };
+  const Real honest = chain_at(stated(1), "", 10).summary.at("time_step").get<Real>();
+  const Real share = std::pow(honest / (1.00005 * critical_step), 2);
+  const auto run = chain_at(stated(share), "", 1200);
+  EXPECT_FALSE(run.failure.empty() && run.warned.empty()) << run.summary.at("quality").dump(1);
+}
+
 // Both ends prescribed, nothing free: closed again, there is no work left with which what rounding leaves could be compared.
 TEST(EnergyWatch, lets_ten_thousand_cycles_of_a_sound_contact_be) {
   std::string table = "0 s 0 m/s";

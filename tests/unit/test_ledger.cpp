@@ -57,10 +57,19 @@ TEST(Ledger, leaves_the_swing_of_the_scheme_and_round_off_alone) {
   EXPECT_EQ(Ledger().look(sums(0, 1e-28), 0, 0, 1e-29), Verdict::runs_away);
 }
 
+TEST(Ledger, knows_what_a_break_costs_by_the_size_of_the_step) {
+  Ledger ledger;
+  ledger.note_break(0.1, 0.4);
+  EXPECT_EQ(ledger.look(sums(2, 1.7), 0, 0, 0), Verdict::balanced);
+  EXPECT_NEAR(ledger.deviation(), 0, 1e-15);
+  EXPECT_NEAR(ledger.lost_at_breaks(), 0.3, 1e-15);
+}
+
 TEST(Ledger, is_the_same_after_a_restart) {
   Ledger before, after;
   before.look(sums(2, 2.5), 0.1, 0.01, 0);
   before.tells();
+  before.note_break(0, 0.2);
   std::vector<Real> kept;
   before.each([&](const char*, Real& number) { kept.push_back(number); });
   auto next = kept.begin();
@@ -68,6 +77,7 @@ TEST(Ledger, is_the_same_after_a_restart) {
   EXPECT_EQ(after.brought(), before.brought());
   EXPECT_EQ(after.gained(), before.gained());
   EXPECT_EQ(after.deviation(), before.deviation());
+  EXPECT_EQ(after.lost_at_breaks(), before.lost_at_breaks());
   EXPECT_FALSE(after.tells());
 }
 
