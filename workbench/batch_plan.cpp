@@ -58,19 +58,6 @@ std::string folder_name(const std::vector<Variation>& variations, const std::vec
 
 namespace {
 
-// Each with the line of the deck that it is about.
-std::vector<std::string> each_of(const Complaints& complaints) {
-  std::vector<std::string> all;
-  for (const std::string& line : split(complaints.text(), '\n')) {
-    const auto begins = [&](const std::string& word) { return line.starts_with(word) || line.find(": " + word) != std::string::npos; };
-    if (begins("error: ") || begins("warning: ")) all.emplace_back();
-    if (!all.empty() && !line.empty() && !line.starts_with(fmt::format("{} error", complaints.errors())) &&
-        !line.starts_with(fmt::format("{} warning", complaints.warnings())))
-      all.back() += line + "\n";
-  }
-  return all;
-}
-
 std::string listed(const std::vector<const BatchRun*>& runs, std::size_t all) {
   constexpr std::size_t shown = 4;
   if (runs.size() == all && all > 1) return fmt::format("all {} runs", all);
@@ -110,7 +97,7 @@ DeckCheck check_decks(std::vector<BatchRun>& runs) {
       code = one.code();
       failure = shown(one) + "\n";
     }
-    for (const std::string& complaint : each_of(complaints)) note(complaint, run);
+    for (const std::string& complaint : complaints.each()) note(complaint, run);
     if (!failure.empty()) note(failure, run);
     if (run.done) run.results = results_of(run.folder);
     if (complaints.errors() > 0 || !failure.empty()) {
