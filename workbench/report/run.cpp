@@ -196,7 +196,10 @@ std::string text_of(const Json& json, const std::string& key, const std::string&
 
 Run open_curves(const fs::path& folder) {
   std::error_code error;
-  if (!fs::is_directory(folder, error))
+  const bool there = fs::is_directory(folder, error);
+  if (error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels)
+    throw DeckFailure("cannot use '" + folder.string() + "': " + error.message());
+  if (!there)
     throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
   const auto written = {"summary.json", "resolved.xml", "run.log", "run.h5"};
   if (std::none_of(written.begin(), written.end(),
