@@ -57,7 +57,7 @@ BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& v
 
 void write_command(BatchRun& run, int threads, const Words& words) {
   run.command = {fs::canonical("/proc/self/exe").string(), "run", fs::absolute(run.deck.path).string(), "--quiet", "--label", run.name,
-                 "--batch", command_line(words), "--out", run.folder.string(), "--threads", std::to_string(threads)};
+                 "--batch", command_line(words), "--out", run.folder.string(), "--threads", std::to_string(threads), "--resume-or-begin"};
   for (const std::string& setting : run.deck.settings) run.command.insert(run.command.end(), {"--set", setting});
   if (run.deck.no_plugins) run.command.push_back("--no-plugins");
   for (const std::string& library : run.deck.libraries) run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
@@ -96,19 +96,19 @@ int batch(const BatchArguments& arguments) {
   }
   const auto count = [&](const auto& which) { return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), which)); };
   const std::size_t done = count([](const BatchRun& run) { return run.done; });
-  const fs::path out = arguments.out;
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) throw MachineFailure(fmt::format("error: cannot make folder '{}': {}", out.string(), error.message()));
+  const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
+  BatchFolder folder(arguments.out);
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
   for (BatchRun& run : runs) write_command(run, shares.threads, arguments.words);
   say("{} runs, {} of them done already{}\n", runs.size(), done, refused ? fmt::format(", {} refused", refused) : "");
+  if (outdated > 0) say("{} of them were done with other data files, and are run again\n", outdated);
   std::fflush(stdout);
-  const fs::path table = out / "batch.csv";
+  const fs::path table = folder.claim("batch.csv");
   if (arguments.engine == "slurm") {
     write_atomically(table, batch_table(variations, runs));
-    submit_to_slurm(runs, shares.jobs, shares.threads, fs::absolute(out));
-    return worst(runs) == static_cast<int>(ExitCode::deck) ? worst(runs) : 0;
+    submit_to_slurm(runs, shares.jobs, shares.threads, folder);
+    std::erase_if(runs, [](const BatchRun& run) { return !run.refused; });  // the others have not run yet
+    return worst(runs);
   }
   run_here(runs, shares.jobs, variations, table);
   if (worst(runs) == static_cast<int>(ExitCode::interrupted)) say("interrupted; go on with: {}\n", command_line(arguments.words));
@@ -132,7 +132,7 @@ int worst(const std::vector<BatchRun>& runs) {
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
   CLI::App* verb = app.add_subcommand("batch", "Runs a deck with many values of its parameters, and tabulates the results");
   verb->footer("Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
-               "What is done is left alone, what was interrupted goes on: give the same command again.\n"
+               "Give the same command again: what is done is left alone, what was interrupted or ran out of disk goes on, the rest begins anew.\n"
                "beadwork report out/sweep lays the curves of the runs over one another.");
   auto arguments = std::make_shared<BatchArguments>();
   arguments->words = words;
@@ -140,7 +140,7 @@ void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_option("--out", arguments->out, "Folder for the runs, one folder each, and for batch.csv")->required();
   verb->add_option("--vary", arguments->variations, "Values of a parameter: name=value,value,...; several give all combinations")->allow_extra_args(false);
   verb->add_option("--jobs", arguments->jobs, "Runs at once; where absent as many as there are processors for")->check(CLI::Range(1, 1024));
-  verb->add_option("--threads", arguments->threads, "Threads of each run; where absent the processors that it may use, shared out among the runs at once")
+  verb->add_option("--threads", arguments->threads, "Threads of each run; where absent the processors that it may use, shared out among the runs at once, and 1 with Slurm")
       ->check(CLI::Range(1, 1024));
   verb->add_flag("--keep-going", arguments->keep_going, "Runs those whose decks are in order, though others are not");
   verb->add_option("--engine", arguments->engine, "local: processes of this machine; slurm: an array of jobs")

@@ -2,10 +2,13 @@
 // Many runs of one deck, each with other values of its parameters and a folder of its own.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/io/manifest.hpp"
+#include "core/loop/same_deck.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
@@ -19,11 +22,14 @@ struct BatchRun {
   std::vector<std::string> values;  ///< of the parameters that vary
   std::filesystem::path folder;
   DeckArguments deck;                ///< with its values
-  std::vector<std::string> command;  ///< beadwork run ..., without --resume or --overwrite
+  std::vector<std::string> command;  ///< beadwork run ...
   std::string deck_sha256;
+  FileSums files;  ///< that its deck names for data, as they are now
   bool refused = false;  ///< its deck has errors
   bool done = false;
-  int code = -1;  ///< exit code; -1 before it has ended
+  bool outdated = false;  ///< it was done, but with other data files
+  int code = -1;          ///< exit code; -1 before it has ended
+  std::vector<std::string> row;  ///< of the table, from "status" to "exit_reason", as note_row read it last
   Results results;
 };
 
@@ -46,18 +52,34 @@ struct DeckCheck {
 /// Checks the decks of all runs, each as its process will see it, and marks those that are done and those that are refused.
 DeckCheck check_decks(std::vector<BatchRun>& runs);
 
-/// True if a run ended there, in order. DeckFailure if it was another deck, or other values, that ran.
-bool is_done(const BatchRun& run);
-/// True if a run was interrupted there and can go on.
-bool can_resume(const BatchRun& run);
+/// True if a run ended there, in order, with the data files that there are now. DeckFailure if it was another deck, or other values, that ran.
+bool is_done(BatchRun& run);
+/// Reads what the run says of itself now.
+void note_row(BatchRun& run);
 
 /// What summary.json and the curves of a run that has ended say.
 Results results_of(const std::filesystem::path& folder);
-/// The runs and what came of them, as CSV.
+/// The runs and what came of them as it was noted last, as CSV.
 std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs);
 
 /// The code that tells most: a failed run outranks an interrupted one.
 int worst(const std::vector<BatchRun>& runs);
+
+/// The folder of a batch: one batch at a time writes there, and only over what a batch has made.
+class BatchFolder {
+ public:
+  /// Makes the folder, or takes one that is there. DeckFailure if it can be none, or if a batch is running there.
+  explicit BatchFolder(const std::filesystem::path& root);
+  /// Where a file stands that is to be written now. DeckFailure if somebody else's is there.
+  std::filesystem::path claim(const std::string& name);
+
+ private:
+  std::filesystem::path root_;
+  Descriptor lock_;
+  std::optional<Manifest> list_;  ///< once there is one
+};
+/// The process that has locked a file or folder, where the system tells: "process 4711", or "another process".
+std::string holder_of(const std::filesystem::path& path);
 
 /// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites `table` whenever one ends.
 /// Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when this process is killed. A run that
@@ -65,7 +87,7 @@ int worst(const std::vector<BatchRun>& runs);
 void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations, const std::filesystem::path& table);
 
 /// Writes a script for Slurm and submits it; `at_once` = 0 leaves that to Slurm. MachineFailure, naming the script, if there is no sbatch here.
-void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, const std::filesystem::path& folder);
+void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, BatchFolder& folder);
 
 /// Starts a program that is asked to stop (SIGTERM) when this process ends, however it ends. -1 if it cannot be started.
 /// `also`: a descriptor that it inherits, as number `inherited_descriptor`; -1 for none.

@@ -7,7 +7,6 @@
 #include <sys/file.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,11 +17,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
-#include <fstream>
 #include <list>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "core/base/failure.hpp"
 #include "core/io/file.hpp"
@@ -40,9 +37,9 @@ pid_t start_program(const std::vector<std::string>& command, int also) {
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child != 0) return child;
+  default_signals();
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(127);  // it has ended already
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}) ::signal(number, SIG_DFL);
   if (also >= 0 && also != inherited_descriptor) ::dup2(also, inherited_descriptor);
   if (also >= 0) ::fcntl(inherited_descriptor, F_SETFD, 0);
   ::execvp(words[0], words.data());
@@ -54,32 +51,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// The process that has locked a file or folder, where the system tells: "process 4711", or "another process".
-std::string holder_of(const fs::path& path) {
-  struct stat file;
-  if (::stat(path.c_str(), &file) != 0) return "another process";
-  const std::string inode = ":" + std::to_string(file.st_ino);
-  std::ifstream locks("/proc/locks");
-  for (std::string line; std::getline(locks, line);) {  // 1: FLOCK ADVISORY WRITE 4711 08:01:131090 0 EOF
-    std::istringstream words(line);
-    std::string number, kind, how, mode, process, place;
-    if (words >> number >> kind >> how >> mode >> process >> place && kind == "FLOCK" && place.ends_with(inode)) return "process " + process;
-  }
-  return "another process";
-}
-
 /// Whether some process is writing this folder.
 bool is_busy(const fs::path& folder) {
   const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   return descriptor && ::flock(descriptor.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-/// Two batches in one folder would start each run twice.
-Descriptor locked(const fs::path& folder) {
-  Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (lock && ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw DeckFailure(fmt::format("error: a batch is running in '{}' already: {}; wait for it, or choose another --out", folder.string(), holder_of(folder)));
-  return lock;
 }
 
 struct Ended {
@@ -97,7 +72,6 @@ class Pool {
 
   void start(BatchRun& run) {
     std::vector<std::string> command = run.command;
-    command.push_back(can_resume(run) ? "--resume" : "--overwrite");
     int ends[2] = {-1, -1};
     const bool told = ::socketpair(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) == 0;
     Descriptor ours(ends[0]);
@@ -143,6 +117,10 @@ class Pool {
     return sum;
   }
 
+  void note_rows() {
+    for (const Running& each : running_) note_row(*each.run);
+  }
+
   void ask_to_stop() const {
     for (const Running& each : running_) ::kill(each.child, SIGTERM);
   }
@@ -171,6 +149,18 @@ class Here {
     all_ = waiting_.size();
   }
 
+  /// Whatever fails on the way: no run is left to itself.
+  void attend() {
+    try {
+      write();
+      go();
+    } catch (...) {
+      stop();
+      throw;
+    }
+  }
+
+ private:
   void go() {
     bool asked = false;
     while (!pool_.is_empty() || (!interrupted && !waiting_.empty())) {
@@ -183,12 +173,27 @@ class Here {
       while (const auto ended = pool_.reap()) note_end(*ended);
       show();
     }
+    for (BatchRun& run : runs_)
+      if (!run.done && !run.refused && run.code < 0) note_row(run);
     write();
   }
 
-  void write() const { write_atomically(table_, batch_table(variations_, runs_)); }
+  void stop() {
+    progress_.hide();
+    pool_.ask_to_stop();
+    while (!pool_.is_empty()) {
+      pool_.listen();
+      while (pool_.reap()) {
+      }
+    }
+  }
 
- private:
+  // Runs that have ended are not read again: there may be many.
+  void write() {
+    pool_.note_rows();
+    write_atomically(table_, batch_table(variations_, runs_));
+  }
+
   void start_some() {
     if (Clock::now() < next_look_) return;
     bool busy = false;
@@ -196,7 +201,7 @@ class Here {
       BatchRun& run = *waiting_.front();
       waiting_.pop_front();
       if (is_busy(run.folder)) {
-        if (elsewhere_.insert(&run).second) tell(fmt::format("{}: {} is at it still and is waited for", run.name, holder_of(run.folder)));
+        if (elsewhere_.insert(&run).second) tell(fmt::format("{}: {} is still writing this run; waiting", run.name, holder_of(run.folder)));
         waiting_.push_back(&run);
         busy = true;
       } else if (elsewhere_.contains(&run) && is_done(run)) {
@@ -227,6 +232,7 @@ class Here {
   void note_done(BatchRun& run, const std::string& how) {
     run.done = run.code == 0;
     run.results = results_of(run.folder);
+    note_row(run);
     ++ended_;
     ++here_;
     tell(fmt::format("[{}/{}] {}: {}", ended_, runs_.size(), run.name, how));
@@ -264,10 +270,7 @@ class Here {
 
 void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations, const fs::path& table) {
   heed_signals();
-  const Descriptor lock = locked(table.parent_path());
-  Here here(runs, at_once, variations, table);
-  here.write();
-  here.go();
+  Here(runs, at_once, variations, table).attend();
 }
 
 }  // namespace beadwork

@@ -58,19 +58,6 @@ std::string folder_name(const std::vector<Variation>& variations, const std::vec
 
 namespace {
 
-// Each with the line of the deck that it is about.
-std::vector<std::string> each_of(const Complaints& complaints) {
-  std::vector<std::string> all;
-  for (const std::string& line : split(complaints.text(), '\n')) {
-    const auto begins = [&](const std::string& word) { return line.starts_with(word) || line.find(": " + word) != std::string::npos; };
-    if (begins("error: ") || begins("warning: ")) all.emplace_back();
-    if (!all.empty() && !line.empty() && !line.starts_with(fmt::format("{} error", complaints.errors())) &&
-        !line.starts_with(fmt::format("{} warning", complaints.warnings())))
-      all.back() += line + "\n";
-  }
-  return all;
-}
-
 std::string listed(const std::vector<const BatchRun*>& runs, std::size_t all) {
   constexpr std::size_t shown = 4;
   if (runs.size() == all && all > 1) return fmt::format("all {} runs", all);
@@ -83,6 +70,7 @@ std::string listed(const std::vector<const BatchRun*>& runs, std::size_t all) {
 }  // namespace
 
 DeckCheck check_decks(std::vector<BatchRun>& runs) {
+  constexpr std::size_t most_shown = 50;  // a deck of another program has a mistake in every line
   std::vector<std::string> order;
   std::map<std::string, std::vector<const BatchRun*>> who;
   const auto note = [&](const std::string& mistake, const BatchRun& run) {
@@ -90,6 +78,7 @@ DeckCheck check_decks(std::vector<BatchRun>& runs) {
     if (those.empty()) order.push_back(mistake);
     if (those.empty() || those.back() != &run) those.push_back(&run);
   };
+  std::map<std::vector<std::string>, FileSums> sums;  // of files that many runs read
   std::size_t bad = 0;
   for (BatchRun& run : runs) {
     Complaints complaints;
@@ -98,21 +87,29 @@ DeckCheck check_decks(std::vector<BatchRun>& runs) {
     try {
       const Loaded loaded = load_scene(run.deck, complaints);
       if (loaded.deck) run.deck_sha256 = loaded.deck->sha256;
-      if (complaints.errors() == 0) run.done = is_done(run);
+      if (complaints.errors() == 0) {
+        const auto files = loaded.scene->files();
+        if (!sums.contains(files)) sums[files] = file_sums(files);
+        run.files = sums[files];
+        run.done = is_done(run);
+      }
     } catch (const Fault& one) {
       code = one.code();
       failure = shown(one) + "\n";
     }
-    for (const std::string& complaint : each_of(complaints)) note(complaint, run);
+    for (const std::string& complaint : complaints.each()) note(complaint, run);
     if (!failure.empty()) note(failure, run);
     if (run.done) run.results = results_of(run.folder);
-    if (complaints.errors() == 0 && failure.empty()) continue;
-    run.refused = true;
-    run.code = static_cast<int>(code);
-    ++bad;
+    if (complaints.errors() > 0 || !failure.empty()) {
+      run.refused = true;
+      run.code = static_cast<int>(code);
+      ++bad;
+    }
+    note_row(run);
   }
   std::string text;
-  for (const std::string& mistake : order) text += fmt::format("{}  in {}\n", mistake, listed(who[mistake], runs.size()));
+  for (std::size_t k = 0; k < order.size() && k < most_shown; ++k) text += fmt::format("{}  in {}\n", order[k], listed(who[order[k]], runs.size()));
+  if (order.size() > most_shown) text += fmt::format("... and {} more\n", order.size() - most_shown);
   if (bad > 0) text += fmt::format("{} of {} runs cannot begin\n", bad, runs.size());
   return {bad, text};
 }

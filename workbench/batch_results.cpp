@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/file.hpp"
 #include "core/loop/bounded_json.hpp"
 #include "workbench/batch.hpp"
 #include "workbench/report/table.hpp"
@@ -17,18 +18,20 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// All numbers of an object, and of those in it, by what they are called: "energy: stored [J]".
+// All numbers of an object, and of those in it, by what they are called ("energy: stored [J]"), and the verdict of `quality`.
 void add_numbers(const Json& object, const std::string& heading, const std::string& unit, Results& results) {
   for (const auto& [key, value] : object.items()) {
     const std::string name = heading + ": " + key;
     if (value.is_object()) add_numbers(value, name, unit, results);
     if (value.is_boolean()) results.emplace_back(name, value.get<bool>() ? "1" : "0");
-    if (value.is_number()) results.emplace_back(name + unit, value.dump());
+    if (value.is_number()) results.emplace_back(name + (key == "free_motion" ? " [m]" : unit), value.dump());
+    if (key == "verdict" && value.is_string()) results.emplace_back(name, value.get<std::string>());
   }
 }
 
 void add_curve(const fs::path& file, Results& results) {
-  const report::Table table = report::read_table(file, true);
+  constexpr std::uintmax_t longest = std::uintmax_t{1} << 31;
+  const report::Table table = report::parse_table(read_text(file, longest), true);
   const Json sidecar = bounded_object(fs::path(file).replace_extension(".json"));
   if (sidecar.contains("kind") && sidecar["kind"] == "ledger") return;  // its end stands in the summary
   for (const report::Column& column : table.columns) {
@@ -53,7 +56,12 @@ Results results_of(const fs::path& folder) {
   for (fs::directory_iterator it(folder / "curves", error), end; !error && it != end; it.increment(error))
     if (it->path().extension() == ".csv" && it->is_regular_file(error)) curves.push_back(it->path());
   std::sort(curves.begin(), curves.end());
-  for (const fs::path& curve : curves) add_curve(curve, results);
+  for (const fs::path& curve : curves) {
+    try {
+      add_curve(curve, results);
+    } catch (const MachineFailure&) {  // the table has what could be read
+    }
+  }
   const Json summary = bounded_object(folder / "summary.json");
   const auto part = [&](const char* key) { return summary.contains(key) && summary[key].is_object() ? summary[key] : Json::object(); };
   add_numbers(part("breaks"), "breaks", "", results);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/base/failure.hpp"
+#include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "workbench/batch.hpp"
 #include "workbench/terminal.hpp"
@@ -11,33 +12,6 @@
 namespace beadwork {
 
 namespace {
-
-// As one word of one line for bash, whatever is in it: a line break in a value must not begin a command.
-std::string quoted(const std::string& word) {
-  const auto control = [](unsigned char c) { return c < ' ' || c == 127; };
-  std::string text, octal;
-  bool any_control = false;
-  for (const char c : word) any_control |= control(static_cast<unsigned char>(c));
-  for (const char c : word) {
-    if (control(static_cast<unsigned char>(c)))
-      text += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
-    else if (c == '\'')
-      text += any_control ? "\\'" : "'\\''";
-    else if (c == '\\' && any_control)
-      text += "\\\\";
-    else
-      text += c;
-  }
-  return (any_control ? "$'" : "'") + text + "'";
-}
-
-// One line for each run: a job that Slurm starts once more goes on where it was.
-std::string command_line(const BatchRun& run) {
-  std::string command;
-  for (const std::string& word : run.command) command += quoted(word) + " ";
-  return fmt::format("if [ -e {0} ]; then exec {1}--resume; else exec {1}--overwrite; fi\n", quoted((run.folder / "checkpoint.h5").string()),
-                     command);
-}
 
 // sbatch fills in what stands behind a %.
 std::string without_patterns(const std::string& path) {
@@ -48,17 +22,17 @@ std::string without_patterns(const std::string& path) {
 
 }  // namespace
 
-void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, const std::filesystem::path& folder) {
-  std::string commands;
+void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, BatchFolder& folder) {
+  std::string commands;  // a line each: a job that Slurm starts once more goes on where it was
   int count = 0;
   for (const BatchRun& run : runs)
     if (!run.done && !run.refused) {
-      commands += command_line(run);
+      commands += "exec " + command_line(run.command) + "\n";
       ++count;
     }
   if (count == 0) return;
-  const auto list = folder / "batch.commands";
-  const auto script = folder / "batch.sbatch";
+  const auto list = std::filesystem::absolute(folder.claim("batch.commands"));
+  const auto script = std::filesystem::absolute(folder.claim("batch.sbatch"));
   write_atomically(list, commands);
   write_atomically(script, fmt::format("#!/bin/bash\n"
                                        "#SBATCH --job-name=beadwork\n"
@@ -67,8 +41,8 @@ void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads
                                        "#SBATCH --requeue\n"
                                        "commands={}\n"
                                        "eval \"$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" \"$commands\")\"\n",
-                                       count, at_once > 0 ? fmt::format("%{}", at_once) : "", threads, quoted(list.string())));
-  const pid_t child = start_program({"sbatch", "--output", without_patterns(folder.string()) + "/slurm-%a.log", script.string()});
+                                       count, at_once > 0 ? fmt::format("%{}", at_once) : "", threads, shell_quoted(list.string())));
+  const pid_t child = start_program({"sbatch", "--output", without_patterns(script.parent_path().string()) + "/slurm-%a.log", script.string()});
   int status = 0;
   if (child > 0) ::waitpid(child, &status, 0);
   if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))

@@ -4,8 +4,10 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/base/utf8.hpp"
 #include "core/loop/bounded_json.hpp"
 #include "workbench/batch.hpp"
+#include "workbench/former_run.hpp"
 
 namespace beadwork {
 
@@ -18,7 +20,9 @@ Json summary_of(const BatchRun& run) { return bounded_object<Json>(run.folder / 
 
 std::string text(const Json& json, const char* key) { return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : ""; }
 
-std::string field(const std::string& text) {
+// Whatever a parameter, a curve or a run is called: the table is UTF-8.
+std::string field(const std::string& raw) {
+  const std::string text = safe_text(raw);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {
@@ -62,17 +66,20 @@ std::vector<std::string> columns_of(const std::vector<BatchRun>& runs) {
 
 }  // namespace
 
-bool is_done(const BatchRun& run) {
-  const Json summary = summary_of(run);
-  if (text(summary, "status") != "done") return false;
-  if (text(summary, "deck_sha256") == run.deck_sha256) return true;
-  throw DeckFailure(fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
-                                run.folder.string()));
+bool is_done(BatchRun& run) {
+  const FormerRun former(run.folder);
+  if (!former.is_done()) return false;
+  if (former.text("deck_sha256") != run.deck_sha256)
+    throw DeckFailure(fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
+                                  run.folder.string()));
+  run.outdated = !former.had(run.files);
+  return !run.outdated;
 }
 
-bool can_resume(const BatchRun& run) {
-  std::error_code error;
-  return std::filesystem::exists(run.folder / "checkpoint.h5", error) && text(summary_of(run), "status") != "failed";
+void note_row(BatchRun& run) {
+  const Json summary = run.refused ? Json::object() : summary_of(run);
+  run.row = {status_of(run, summary), number(summary, "elements"), number(summary, "steps"), number(summary, "time"),
+             breaks(summary), number(summary, "wall_seconds"), text(summary, "exit_reason")};
 }
 
 std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs) {
@@ -83,11 +90,9 @@ std::string batch_table(const std::vector<Variation>& variations, const std::vec
   for (const std::string& column : columns) table += "," + field(column);
   table += "\n";
   for (const BatchRun& run : runs) {
-    const Json summary = run.refused ? Json::object() : summary_of(run);
     table += field(run.name);
     for (const std::string& value : run.values) table += "," + field(value);
-    table += fmt::format(",{},{},{},{},{},{},{}", status_of(run, summary), number(summary, "elements"), number(summary, "steps"),
-                         number(summary, "time"), breaks(summary), number(summary, "wall_seconds"), field(text(summary, "exit_reason")));
+    for (const std::string& cell : run.row) table += "," + field(cell);
     for (const std::string& column : columns) {
       const auto found = std::find_if(run.results.begin(), run.results.end(), [&](const auto& result) { return result.first == column; });
       table += "," + (found == run.results.end() ? "" : field(found->second));

@@ -76,17 +76,6 @@ std::string meaning(const ParamBase& param) {
   return fmt::format("{} (of {})", param.info().doc, join(names));
 }
 
-std::string as_list(const Manual& manual) {
-  std::string text;
-  const char* section = nullptr;
-  for (const Described& each : manual) {
-    if (section != kind_name(each.kind)) text += fmt::format("{}{}\n", section ? "\n" : "", kind_name(each.kind));
-    section = kind_name(each.kind);
-    text += fmt::format("  {:20} {}\n", each.tag, each.about);
-  }
-  return text;
-}
-
 namespace {
 
 struct DescribeArguments {
@@ -112,7 +101,7 @@ int describe(const DescribeArguments& arguments) {
   else if (arguments.format == "md")
     text = as_markdown(manual);
   else
-    text = arguments.plugin.empty() ? as_list(manual) : as_text(manual, terminal_width());
+    text = arguments.plugin.empty() ? as_list(manual, terminal_width()) : as_text(manual, terminal_width());
   write_out(text);
   return 0;
 }

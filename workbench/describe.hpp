@@ -23,9 +23,9 @@ Manual manual_of(const Catalogue& catalogue);
 /// "bond/cohesive-beam", or its tag alone. DeckFailure with a suggestion if there is none.
 Manual pick(Manual manual, const std::string& wanted);
 
-std::string as_list(const Manual& manual);
 std::string as_markdown(const Manual& manual);
-/// For a terminal: lines of at most `width` characters.
+/// For a terminal, in lines of at most `width` characters: what there is, and all of it.
+std::string as_list(const Manual& manual, std::size_t width);
 std::string as_text(const Manual& manual, std::size_t width);
 std::string as_json(const Manual& manual);
 /// XSD 1.0 for decks and for the files that they include.

@@ -43,6 +43,18 @@ std::string entry_of(Kind kind, const FieldUse& use, std::size_t width) {
 
 }  // namespace
 
+std::string as_list(const Manual& manual, std::size_t width) {
+  constexpr std::size_t indent = 23;
+  std::string text;
+  const char* section = nullptr;
+  for (const Described& each : manual) {
+    if (section != kind_name(each.kind)) text += fmt::format("{}{}\n", section ? "\n" : "", kind_name(each.kind));
+    section = kind_name(each.kind);
+    text += fmt::format("  {:20} ", each.tag) + wrapped(each.about, indent, width).substr(indent);
+  }
+  return text;
+}
+
 std::string as_text(const Manual& manual, std::size_t width) {
   std::string text;
   for (const Described& each : manual) {

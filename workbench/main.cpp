@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <sstream>
 
 #include "core/base/failure.hpp"
 #include "core/version.hpp"
@@ -26,7 +27,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
+    std::ostringstream out, problem;
+    const int code = app.exit(error, out, problem);
+    write_out(out.str());
+    write_error(problem.str());
     return code == 0 ? 0 : static_cast<int>(ExitCode::deck);
   }
   try {

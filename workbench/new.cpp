@@ -1,10 +1,11 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/io/file.hpp"
 #include "workbench/describe.hpp"
 #include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
@@ -93,10 +94,12 @@ int make_deck(const NewArguments& arguments) {
     write_out(text);
     return 0;
   }
-  if (std::filesystem::exists(out)) throw DeckFailure(fmt::format("error: '{}' exists already; choose another name", out.string()));
-  std::ofstream file(out);
-  file << text;
-  if (!file.flush()) throw MachineFailure(fmt::format("error: cannot write '{}'", out.string()));
+  std::error_code error;
+  const auto there = std::filesystem::symlink_status(out, error);  // what a link leads to is somebody else's
+  if (std::filesystem::exists(there)) throw DeckFailure(fmt::format("error: '{}' exists already; choose another name", out.string()));
+  if (error && !std::filesystem::status_known(there)) throw DeckFailure(fmt::format("error: '{}' cannot be the name of a deck: {}", out.string(), error.message()));
+  const Descriptor file = open_regular(out, O_WRONLY | O_CREAT | O_EXCL, "write");
+  if (const int number = write_all(file.number(), text.data(), text.size())) throw file_failure("write", out, number);
   say("{0}: now fill in what 'beadwork check {0}' asks for\n", out.string());
   return 0;
 }

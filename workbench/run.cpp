@@ -9,6 +9,7 @@
 #include "core/base/processors.hpp"
 #include "core/base/text.hpp"
 #include "core/version.hpp"
+#include "workbench/former_run.hpp"
 #include "workbench/progress.hpp"
 #include "workbench/run_log.hpp"
 #include "workbench/signals.hpp"
@@ -24,7 +25,7 @@ struct RunArguments {
   Words words;
   std::string label;  // of a run that a batch has started: stands before its lines
   int tell = -1;      // socket that takes how far it has come; -1 if nobody asks
-  bool overwrite = false, resume = false, quiet = false;
+  bool overwrite = false, resume = false, resume_or_begin = false, quiet = false;
   int threads = 0;
   double checkpoint_minutes = 10;
 };
@@ -46,13 +47,15 @@ int run(const RunArguments& arguments) {
   heed_signals();
   Loaded loaded = load_scene(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
-  RunFolder folder = arguments.resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, arguments.overwrite);
-  const auto log = make_run_log(folder.log(), arguments.resume, arguments.quiet, arguments.label);
+  const bool resume = arguments.resume || (arguments.resume_or_begin && FormerRun(arguments.out).can_go_on(file_sums(loaded.scene->files())));
+  const bool overwrite = arguments.overwrite || arguments.resume_or_begin;
+  RunFolder folder = resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, overwrite);
+  const auto log = make_run_log(folder.log(), resume, arguments.quiet, arguments.label);
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 
   RunOptions options;
   options.threads = arguments.threads > 0 ? arguments.threads : allowed_processors();
-  options.resume = arguments.resume;
+  options.resume = resume;
   options.commands = commands_of(arguments.words, arguments.batch);
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.interrupt = &interrupted;
@@ -108,7 +111,11 @@ void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the results")->required();
   CLI::Option* overwrite = verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
-  verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
+  CLI::Option* resume = verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
+  verb->add_flag("--resume-or-begin", arguments->resume_or_begin,
+                 "Goes on from the checkpoint of a run that was interrupted, killed or stopped by the machine; where there is none, begins as --overwrite does")
+      ->excludes(overwrite)
+      ->excludes(resume);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
   verb->add_option("--threads", arguments->threads, "Number of threads; as many as there are processors that it may use where absent")->check(CLI::Range(1, 1024));

@@ -34,6 +34,11 @@ void hold_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) != stream) ::_exit(1);  // takes the lowest free number
 }
 
+void default_signals() {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU})
+    if (!is_ignored(number)) handle(number, SIG_DFL);
+}
+
 void heed_signals() {
   for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) handle(number, note);
   if (!is_ignored(SIGHUP)) handle(SIGHUP, note);

@@ -16,4 +16,7 @@ extern std::atomic<int> interrupted;
 /// used up (SIGXCPU) are noted in `interrupted`, and a closed pipe or a file that may not grow are errors of the one who writes.
 void heed_signals();
 
+/// What heed_signals notes does again what it did before; what is ignored stays ignored. For a child, until it becomes another program.
+void default_signals();
+
 }  // namespace beadwork

@@ -103,16 +103,21 @@ std::vector<Complaints::Complaint> Complaints::in_order() const {
   return sorted;
 }
 
+std::vector<std::string> Complaints::each() const {
+  std::vector<std::string> all;
+  for (const Complaint& each : in_order()) {
+    const std::string place = each.at.source ? each.at.where() + ": " : "";
+    all.push_back(place + (each.is_error ? "error: " : "warning: ") + each.message + "\n" + excerpt(each.at));
+  }
+  return all;
+}
+
 std::string Complaints::text() const {
   std::string text;
-  const std::vector<Complaint> sorted = in_order();
-  const std::size_t shown = std::min(sorted.size(), most_shown);
-  for (std::size_t i = 0; i < shown; ++i) {
-    const Complaint& each = sorted[i];
-    if (each.at.source) text += each.at.where() + ": ";
-    text += (each.is_error ? "error: " : "warning: ") + each.message + "\n" + excerpt(each.at);
-  }
-  if (shown < sorted.size()) text += "... and " + std::to_string(sorted.size() - shown) + " more\n";
+  const std::vector<std::string> all = each();
+  const std::size_t shown = std::min(all.size(), most_shown);
+  for (std::size_t i = 0; i < shown; ++i) text += all[i];
+  if (shown < all.size()) text += "... and " + std::to_string(all.size() - shown) + " more\n";
   if (errors_ > 0) text += counted(errors_, "error");
   if (errors_ > 0 && warnings_ > 0) text += ", ";
   if (warnings_ > 0) text += counted(warnings_, "warning");

@@ -23,6 +23,9 @@ class Complaints {
   /// the end. Order: by file as they first appeared, then by place; what stands nowhere comes last.
   std::string text() const;
 
+  /// Each as it stands in text(), with its line of the deck, in the same order; all of them.
+  std::vector<std::string> each() const;
+
   /// Throws DeckFailure(text()) if there is an error; warnings alone do not throw.
   void throw_if_any() const;
 

@@ -1,5 +1,7 @@
 #include "core/base/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -153,8 +155,20 @@ std::string shell_quoted(std::string_view word) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("_./:,+@%=-").find(c) != std::string_view::npos;
   };
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_safe)) return std::string(word);
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  // A line break in a value must not begin a command.
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; };
+  const bool any_control = std::any_of(word.begin(), word.end(), is_control);
+  std::string text = any_control ? "$'" : "'";
+  for (const char c : word) {
+    if (is_control(c))
+      text += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    else if (c == '\'')
+      text += any_control ? "\\'" : "'\\''";
+    else if (c == '\\' && any_control)
+      text += "\\\\";
+    else
+      text += c;
+  }
   return text + "'";
 }
 

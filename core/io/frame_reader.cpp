@@ -97,14 +97,16 @@ h5::Handle FrameReader::File::frame(const std::string& name) const {
   if (!elsewhere) return h5::open_group(frames.id(), name);
   const std::filesystem::path file = elsewhere->file;
   if (file.parent_path() != "frames" || file.filename() == "..") throw MachineFailure("frame '" + name + "' leads to '" + file.string() + "', which is no frame of this run");
-  if (std::filesystem::is_symlink(folder / "frames")) throw MachineFailure("'" + (folder / "frames").string() + "' is a link, which is not followed");
+  std::error_code error;
+  if (std::filesystem::is_symlink(folder / "frames", error)) throw MachineFailure("'" + (folder / "frames").string() + "' is a link, which is not followed");
   return h5::open_group(h5::open_file(folder / file).id(), elsewhere->group);
 }
 
 FrameReader::FrameReader(const std::filesystem::path& file, Links links) : file_(std::make_unique<File>()) {
   const h5::Silence silence;
-  file_->folder = (links == Links::follow ? std::filesystem::weakly_canonical(file) : file).parent_path();
   file_->handle = h5::open_file(file, links);
+  std::error_code error;  // of a path that leads nowhere: then it could not be opened
+  file_->folder = (links == Links::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
   if (!has(file_->handle.id(), "frames")) return;
   for (const std::string& name : h5::names_in(h5::open_group(file_->handle.id(), "frames").id())) {
     try {

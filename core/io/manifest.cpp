@@ -16,7 +16,10 @@ namespace {
 
 using Path = std::filesystem::path;
 
-constexpr std::string_view signature = "beadwork: the files that a run made, format 1";
+const char* name_of(Manifest::Of of) { return of == Manifest::Of::run ? Manifest::file_name : Manifest::file_name_of_batch; }
+const char* maker(Manifest::Of of) { return of == Manifest::Of::run ? "run" : "batch"; }
+std::string signature(Manifest::Of of) { return fmt::format("beadwork: the files that a {} made, format 1", maker(of)); }
+
 constexpr std::uintmax_t longest = std::uintmax_t{1} << 30;
 
 bool is_plain_name(std::string_view name) {
@@ -24,11 +27,11 @@ bool is_plain_name(std::string_view name) {
          std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; });
 }
 
-// A run writes into its folder and one level below it. Whatever else a damaged list says names nothing.
+// A run or batch writes into its folder and one level below it. Whatever else a damaged list says names nothing.
 bool can_be_listed(std::string_view file) {
   for (const std::string_view below : {"curves/", "frames/"})
     if (file.starts_with(below)) return is_plain_name(file.substr(below.size()));
-  return is_plain_name(file) && file != Manifest::file_name;
+  return is_plain_name(file) && file != Manifest::file_name && file != Manifest::file_name_of_batch;
 }
 
 // What a kill left of a last line is the beginning of a name, and may be that of another file.
@@ -49,27 +52,34 @@ bool stands(const Path& file) {
 
 }  // namespace
 
-std::optional<Manifest> Manifest::read(const Path& folder) {
-  if (!stands(folder / file_name)) return std::nullopt;
-  const std::string text = read_text(folder / file_name, longest);
-  std::vector<std::string> lines = split(text, '\n');
-  if (lines.front() != signature || lines.size() < 2) return std::nullopt;
+Path Manifest::place() const { return folder_ / name_of(of_); }
+
+std::optional<Manifest> Manifest::read(const Path& folder, Of of) {
+  Manifest manifest(folder, of);
+  if (!stands(manifest.place())) return std::nullopt;
+  std::vector<std::string> lines = split(read_text(manifest.place(), longest), '\n');
+  if (lines.front() != signature(of) || lines.size() < 2) return std::nullopt;
   lines.pop_back();  // empty, or torn by a kill: then its file was not made
-  Manifest manifest(folder);
   for (std::size_t k = 1; k < lines.size(); ++k)
     if (can_be_listed(lines[k])) manifest.add(lines[k]);
   return manifest;
 }
 
-Manifest Manifest::begin(const Path& folder, const std::vector<std::string>& files) {
-  Manifest manifest(folder);
-  std::string text = std::string(signature) + "\n";
+Manifest Manifest::begin(const Path& folder, const std::vector<std::string>& files, Of of) {
+  Manifest manifest(folder, of);
+  std::string text = signature(of) + "\n";
   for (const std::string& file : files) {
     manifest.add(file);
     text += file + "\n";
   }
-  write_atomically(folder / file_name, text);
+  write_atomically(manifest.place(), text);
   return manifest;
+}
+
+void Manifest::refuse_what_stands(const Path& file, Of of) {
+  if (stands(file))
+    throw DeckFailure(fmt::format("'{}' is there already, and no {} made it: it is left alone. Rename it, or choose another {}", file.string(), maker(of),
+                                  of == Of::run ? "name" : "folder"));
 }
 
 void Manifest::add(const std::string& file) {
@@ -77,19 +87,17 @@ void Manifest::add(const std::string& file) {
 }
 
 void Manifest::refresh() {
-  if (const auto now = read(folder_))
+  if (const auto now = read(folder_, of_))
     for (const std::string& file : now->files_) add(file);
 }
 
 void Manifest::claim(const std::string& file) {
   if (lists(file)) return;
-  const Path list = folder_ / file_name;
+  const Path list = place();
   if (!can_be_listed(file)) throw DeckFailure(fmt::format("\"{}\" cannot be the name of a file of a run", file));
-  const bool there = stands(folder_ / file);
-  if (there) refresh();
+  if (stands(folder_ / file)) refresh();
   if (lists(file)) return;
-  if (there)
-    throw DeckFailure(fmt::format("'{}' is there already, and no run made it: it is left alone. Rename it, or choose another name", (folder_ / file).string()));
+  refuse_what_stands(folder_ / file, of_);
   if (!open_) {
     open_ = open_regular(list, O_RDWR | O_APPEND, "write");
     drop_torn_line(open_.number(), list);

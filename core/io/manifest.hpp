@@ -1,6 +1,6 @@
 #pragma once
 // The list of the files that a run made: `run.files`, a line that says so, then a path on each line. A folder is that of a run if
-// it has one, and what is not on it is somebody else's.
+// it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`.
 
 #include <filesystem>
 #include <optional>
@@ -15,11 +15,16 @@ namespace beadwork {
 class Manifest {
  public:
   static constexpr const char* file_name = "run.files";
+  static constexpr const char* file_name_of_batch = "batch.files";
+  enum class Of { run, batch };
 
   /// That of a folder; nothing if there is none, or a file of this name that no run wrote. MachineFailure if it cannot be read.
-  static std::optional<Manifest> read(const std::filesystem::path& folder);
+  static std::optional<Manifest> read(const std::filesystem::path& folder, Of of = Of::run);
   /// Writes one that lists these files of the folder, in the place of a former one.
-  static Manifest begin(const std::filesystem::path& folder, const std::vector<std::string>& files);
+  static Manifest begin(const std::filesystem::path& folder, const std::vector<std::string>& files, Of of = Of::run);
+
+  /// DeckFailure if something stands there: it is somebody else's. To be asked of a file that is on no list.
+  static void refuse_what_stands(const std::filesystem::path& file, Of of = Of::run);
 
   /// In the order in which they were put on the list.
   const std::vector<std::string>& files() const { return files_; }
@@ -32,10 +37,12 @@ class Manifest {
   void refresh();
 
  private:
-  explicit Manifest(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  Manifest(std::filesystem::path folder, Of of) : folder_(std::move(folder)), of_(of) {}
+  std::filesystem::path place() const;
   void add(const std::string& file);
 
   std::filesystem::path folder_;
+  Of of_;
   std::vector<std::string> files_;
   std::set<std::string> known_;
   Descriptor open_;  ///< for appending, once something is

@@ -94,14 +94,18 @@ void remove_run(const Path& root, const Manifest& manifest) {
 
 }  // namespace
 
-RunFolder RunFolder::fresh(const Path& root, bool overwrite) {
+void make_output_folder(const Path& root, std::string_view what) {
   error_code error;
   const bool exists = std::filesystem::exists(root, error);
   if (error && error != std::errc::permission_denied)  // a name too long, a loop of links
-    throw DeckFailure(fmt::format("'{}' cannot be the folder of a run: {}", root.string(), error.message()));
+    throw DeckFailure(fmt::format("'{}' cannot be the folder of a {}: {}", root.string(), what, error.message()));
   if (exists && !std::filesystem::is_directory(root, error))
-    throw DeckFailure(fmt::format("'{}' is a file; the output of a run is a folder", root.string()));
+    throw DeckFailure(fmt::format("'{}' is a file; the output of a {} is a folder", root.string(), what));
   make_folder(root);
+}
+
+RunFolder RunFolder::fresh(const Path& root, bool overwrite) {
+  make_output_folder(root, "run");
   RunFolder folder(root);
   folder.lock();
   const auto former = Manifest::read(root);

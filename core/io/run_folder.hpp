@@ -5,12 +5,17 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/file.hpp"
 #include "core/io/manifest.hpp"
 
 namespace beadwork {
+
+/// Makes the folder that a "run" or a "batch" writes, where there is none. DeckFailure if something else stands there or the name can be none,
+/// MachineFailure if the machine cannot.
+void make_output_folder(const std::filesystem::path& root, std::string_view what);
 
 class RunFolder {
  public:

@@ -7,7 +7,6 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/parallel.hpp"
-#include "core/base/sha256.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/handed_over.hpp"
 #include "core/loop/run_curve.hpp"
@@ -19,13 +18,13 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       catalogue_(catalogue),
       folder_(folder),
       options_(std::move(options)),
+      files_(file_sums(scene.files())),
       offered_(scene),
       repeats_(options_.say),
       began_(Clock::now()),
       saved_(began_),
       shown_(began_) {
   use_threads(options_.threads);
-  for (const std::string& path : scene_.files()) files_[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
   for (const Stage& stage : scene_.stages)
     for (const Failure* failure : stage.failures)
       if (std::none_of(figures_.largest_uses.begin(), figures_.largest_uses.end(), [&](const auto& known) { return known.first == failure; }))
@@ -43,16 +42,17 @@ void Run::all() {
     try {
       begin();
       go_through_stages();
-      close("done", figures_.exit_reason);
+      close("done", ExitCode::done, figures_.exit_reason);
     } catch (const Interrupted& stop) {
       if (can_be_saved()) save();
-      close("interrupted", stop.what());
+      close("interrupted", stop.code(), stop.what());
       throw;
     } catch (const MachineFailure&) {
       throw;
     } catch (const std::exception& failure) {
       complete_if_possible();
-      close("failed", failure.what());
+      const auto* fault = dynamic_cast<const Fault*>(&failure);
+      close("failed", fault ? fault->code() : ExitCode::machine, failure.what());
       throw;
     }
   } catch (const MachineFailure& failure) {

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <optional>
 
+#include "core/base/failure.hpp"
 #include "core/base/headway.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/io/curve.hpp"
@@ -45,6 +47,7 @@ struct RunOptions {
 struct RunFigures {
   std::string status = "running";
   std::string exit_reason;
+  std::optional<ExitCode> exit_code;        ///< once it has ended: by whose fault
   Real wall_seconds = 0, loop_seconds = 0;  ///< the loop's are those of steps and looks, without filling and checkpoints
   Real bond_updates = 0;
   std::vector<std::string> packing_reports;  ///< JSON objects
@@ -139,7 +142,7 @@ class Run final : private Workings, private Sight {
   bool save_now_and_then(Clock::time_point now);  ///< whether it saved
   void write_summary();
   std::string summary() const;
-  void close(const std::string& status, const std::string& reason);
+  void close(const std::string& status, ExitCode code, const std::string& reason);
   void rescue(const std::string& reason);
   bool can_be_saved() const;
   void reserve_room() const;

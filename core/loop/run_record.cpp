@@ -314,6 +314,7 @@ void Run::rescue(const std::string& reason) {
     attempt("the last step could not be saved", [&] { save(); });
   if (figures_.status == "running" || figures_.status == "done") {
     figures_.status = "failed";
+    figures_.exit_code = ExitCode::machine;
     figures_.exit_reason = reason;
     if (has_checkpoint_)
       figures_.exit_reason += fmt::format("; the newest checkpoint is of step {}, go on with: {}", saved_step_, options_.commands.go_on);
@@ -324,10 +325,11 @@ void Run::rescue(const std::string& reason) {
 }
 
 // An orderly end, for better or worse: the record is whole, and says why the run ended.
-void Run::close(const std::string& status, const std::string& reason) {
+void Run::close(const std::string& status, ExitCode code, const std::string& reason) {
   repeats_.conclude();
   for (const auto& [criterion, use] : figures_.largest_uses) options_.say(sentence(use, *criterion));
   figures_.status = status;
+  figures_.exit_code = code;
   figures_.exit_reason = reason;
   std::error_code error;
   std::filesystem::remove(part_of(folder_.checkpoint()), error);

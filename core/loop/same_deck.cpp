@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/base/complaints.hpp"
 #include "core/base/failure.hpp"
+#include "core/base/sha256.hpp"
 #include "core/base/text.hpp"
 
 namespace beadwork {
@@ -87,6 +90,12 @@ class Comparison {
 };
 
 }  // namespace
+
+FileSums file_sums(const std::vector<std::string>& paths) {
+  FileSums sums;
+  for (const std::string& path : paths) sums[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
+  return sums;
+}
 
 void refuse_other_deck(const DeckRecord& saved, const PlainNode& now, const FileSums& files) {
   const auto before = read_resolved_xml(saved.resolved);

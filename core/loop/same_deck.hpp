@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/deck/write.hpp"
 
@@ -10,6 +11,8 @@ namespace beadwork {
 
 /// The files that a deck names for data: the SHA-256 of each by its absolute path.
 using FileSums = std::map<std::string, std::string>;
+/// As they are now. MachineFailure if one cannot be read.
+FileSums file_sums(const std::vector<std::string>& paths);
 
 /// What a checkpoint knows of the deck that began its run.
 struct DeckRecord {

@@ -73,6 +73,7 @@ std::string summary_json(const Scene& scene, const FileSums& files, const RunFig
   json["name"] = scene.name;
   json["status"] = figures.status;
   json["exit_reason"] = figures.exit_reason;
+  if (figures.exit_code) json["exit_code"] = static_cast<int>(*figures.exit_code);
   json["deck_sha256"] = scene.deck_sha256;
   json["overrides"] = Json::object();
   for (const Override& each : scene.overrides) json["overrides"][each.name] = each.value;

@@ -48,6 +48,8 @@ assert float(row["force: largest force [N]"]) == largest != 0, (row, largest)
 assert float(row["force: final displacement [m]"]) == float(rows[-1][at["displacement"]]) != 0
 assert float(row["energy: work [J]"]) == summary["energy"]["work"] != 0
 assert float(row["energy: residual [J]"]) == summary["energy"]["residual"]
+assert row["quality: verdict"] == summary["quality"]["verdict"] != "", row
+assert float(row["quality: free_motion [m]"]) == summary["quality"]["free_motion"], row
 END
 done
 
@@ -57,6 +59,47 @@ for label in 'E = 50 GPa, v = 0.5 mm/s' 'E = 100 GPa, v = 1 mm/s'; do
   [ "$(grep -o "$label" "$work/sweep/report.html" | wc -l)" -ge 1 ] || fail "no curve of $label"
 done
 says report.html
+curves=$(grep -o '<figure class="chart">.*' "$work/sweep/report.html" | grep -o '<path class="line' | wc -l)
+charts=$(grep -o '<figure class="chart">' "$work/sweep/report.html" | wc -l)
+[ "$charts" -ge 1 ] && [ "$curves" = $((4 * charts)) ] || fail "not four curves a chart: $curves in $charts"
+expect 0 "$beadwork" report "$work/sweep"
+
+echo "a run whose data files have changed is run again"
+printf 'r [mm],x [mm],y [mm],z [mm]\n1,0,0,0\n1,2,0,0\n' >"$work/balls.csv"
+cp "$work/balls.csv" "$work/others.csv"
+data=("$beadwork" batch "$source/tests/decks/sessions/packing_tables.xml" --out "$work/data" --vary "table=$work/balls.csv,$work/others.csv")
+expect 0 "${data[@]}"
+expect 0 "${data[@]}"
+says "2 of them done already"
+echo '1,4,0,0' >>"$work/balls.csv"
+expect 0 "${data[@]}"
+says "1 of them done already"
+says "1 of them were done with other data files"
+[ "$(column elements data)" = $'3\n2' ] || fail "not run again with three elements: $(cat "$work/data/batch.csv")"
+
+echo "files of somebody else are left alone"
+for file in batch.csv batch.commands batch.sbatch batch.files; do
+  mkdir -p "$work/mine-$file"
+  echo mine >"$work/mine-$file/$file"
+  engine=local
+  case $file in batch.commands | batch.sbatch) engine=slurm ;; esac
+  expect 2 "$beadwork" batch "$deck" --out "$work/mine-$file" --vary 'E=50 GPa' --engine $engine
+  says "mine-$file/$file' is there already, and no batch made it"
+  says "choose another folder"
+  [ "$(cat "$work/mine-$file/$file")" = mine ] || fail "$file is gone"
+done
+mkdir "$work/page"
+expect 0 "$beadwork" batch "$deck" --out "$work/page" --vary 'E=50 GPa'
+echo mine >"$work/page/report.html"
+expect 2 "$beadwork" report "$work/page"
+[ "$(cat "$work/page/report.html")" = mine ] || fail "report.html is gone"
+
+echo "a place where no folder can be"
+ln -s loop "$work/loop"
+expect 2 "$beadwork" batch "$deck" --out "$work/loop" --vary 'E=50 GPa'
+says "cannot be the folder of a batch: "
+expect 2 "$beadwork" batch "$deck" --out "$deck" --vary 'E=50 GPa'
+says "is a file"
 
 echo "all bad values of all runs are told at once, and nothing runs"
 expect 2 "$beadwork" batch "$deck" --out "$work/bad" --vary 'E=50 GPa,-1 GPa,-2 GPa' --vary 'v=1 mm/s,1 kg'
@@ -69,6 +112,12 @@ says '5 of 6 runs cannot begin'
 expect 2 "$beadwork" batch "$deck" --out "$work/bad" --vary 'E=50 GPa,-1 GPa' --keep-going
 [ "$(rows ',done,2,200,' bad)" = 1 ] && [ "$(rows ',refused,' bad)" = 1 ] || fail "the good one did not run: $(cat "$work/bad/batch.csv")"
 [ ! -e "$work/bad/E=-1-GPa" ] || fail "a bad one ran"
+
+echo "the table is text, whatever a value is"
+expect 2 "$beadwork" batch "$deck" --out "$work/bytes" --vary $'E=50 GPa,\xff\x1b' --keep-going
+iconv -f utf-8 -t utf-8 "$work/bytes/batch.csv" >/dev/null || fail "no UTF-8"
+! grep -q $'\x1b' "$work/bytes/batch.csv" || fail "a control character"
+[ "$(rows ',done,2,200,' bytes)" = 1 ] || fail "the good one did not run"
 
 echo "names of any length"
 long=$(printf '0%.0s' $(seq 300))
@@ -102,6 +151,65 @@ expect 0 "$beadwork" batch "$deck" --out "$work/long" --vary 'E=50 GPa,100 GPa' 
 [ "$(rows ',done,' long)" = 2 ] || fail "not done: $(cat "$work/long/batch.csv")"
 [ "$(rows ',done,2,1,' long)" = 0 ] || fail "begun anew instead of resumed"
 
+echo "what the machine stopped goes on, what physics stopped begins anew"
+full=("$beadwork" batch "$deck" --out "$work/full" --vary 'E=50 GPa' --set n=100000)
+expect 1 bash -c 'ulimit -f 98; exec "$@"' limited "${full[@]}"
+[ "$(rows ',failed,' full)" = 1 ] && [ -f "$work/full/E=50-GPa/checkpoint.h5" ] || fail "did not fail: $(cat "$work/full/batch.csv")"
+grep -q '"exit_code": 1' "$work/full/E=50-GPa/summary.json" || fail "does not say by whose fault"
+cp -r "$work/full" "$work/full-slurm"
+expect 0 "${full[@]}"
+grep -q "resumed at step" "$work/full/E=50-GPa/run.log" || fail "begun anew instead of resumed"
+cat >"$work/wild.xml" <<'END'
+<scene name="wild">
+  <parameter name="E" value="100 GPa"/>
+  <fill>
+    <element set="left"  at="0 0 0 mm" radius="1 mm" density="2000 kg/m^3"/>
+    <element set="right" at="2 0 0 mm" radius="1 mm" density="2000 kg/m^3"/>
+  </fill>
+  <bond><cohesive-beam name="beam" between="left right" young="${E}" radius-ratio="0.5"/></bond>
+  <load><hold set="left"/><initial-velocity set="right" velocity="1 0 0 m/s"/></load>
+  <stage name="calm"><move><verlet until="10"/></move></stage>
+  <stage name="wild"><move><verlet time-step="1 ms" until="100000"/></move></stage>
+</scene>
+END
+wild=("$beadwork" batch "$work/wild.xml" --out "$work/wild" --vary 'E=50 GPa')
+for again in 1 2; do
+  expect 3 "${wild[@]}"
+  [ -f "$work/wild/E=50-GPa/checkpoint.h5" ] || fail "no checkpoint to leave aside"
+  ! grep -q "resumed at step" "$work/wild/E=50-GPa/run.log" || fail "went on to fail again, time $again"
+done
+
+echo "rows of runs that have ended are kept, and no run is left to itself when the batch fails"
+kept=("$beadwork" batch "$deck" --out "$work/kept" --vary 'n=10,1000000000,1000000001' --jobs 2)
+"${kept[@]}" >"$work/output" 2>&1 &
+batch=$!
+for _ in $(seq 600); do
+  [ -s "$work/kept/n=1000000000/curves/force.csv" ] && [ -s "$work/kept/n=1000000001/curves/force.csv" ] && break
+  sleep 0.1
+done
+rm "$work/kept/n=10/summary.json"
+first=$(pgrep -P $batch -f n=1000000000) second=$(pgrep -P $batch -f n=1000000001)
+kill -TERM "$first"
+for _ in $(seq 600); do [ "$(rows ',interrupted,' kept)" = 1 ] && break; sleep 0.1; done
+[ "$(rows ',done,2,10,' kept)" = 1 ] && [ "$(rows ',interrupted,' kept)" = 1 ] || fail "a row is gone: $(cat "$work/kept/batch.csv")"
+kill -TERM $batch
+wait $batch || true
+"${kept[@]}" >"$work/output" 2>&1 &
+batch=$!
+for _ in $(seq 600); do [ "$(grep -l "resumed at step" "$work"/kept/n=100000000?/run.log | wc -l)" = 2 ] && break; sleep 0.1; done
+first=$(pgrep -P $batch -f n=1000000000) second=$(pgrep -P $batch -f n=1000000001)
+mkdir "$work/kept/batch.csv.part" # so that the table cannot be written
+kill -STOP "$second"
+kill -TERM "$first"
+sleep 2
+kill -0 $batch || fail "the batch has gone and left a run"
+kill -CONT "$second"
+got=0
+wait $batch || got=$?
+[ $got = 1 ] || fail "exit code $got, not 1"
+says "batch.csv.part"
+grep -q '"status": "interrupted"' "$work/kept/n=1000000001/summary.json" || fail "the other was not asked to stop"
+
 echo "whoever kills the batch leaves no orphans, and who begins anew beside them waits"
 begin=("$beadwork" batch "$deck" --out "$work/orphans" --vary 'E=50 GPa,100 GPa' --jobs 2 --set n=1000000000)
 "${begin[@]}" >"$work/output" 2>&1 &
@@ -120,10 +228,10 @@ wait $batch || true
 "${begin[@]}" >"$work/output" 2>&1 &
 again=$!
 for _ in $(seq 600); do
-  [ "$(grep -c "is at it still and is waited for" "$work/output" || true)" = 2 ] && break
+  [ "$(grep -c "is still writing this run; waiting" "$work/output" || true)" = 2 ] && break
   sleep 0.1
 done
-[ "$(grep -c "is at it still and is waited for" "$work/output")" = 2 ] || fail "does not say that it waits"
+[ "$(grep -c "is still writing this run; waiting" "$work/output")" = 2 ] || fail "does not say that it waits"
 for child in $children; do
   says "process $child"
   kill -CONT "$child"
@@ -157,6 +265,19 @@ chmod +x "$work/bin/sbatch"
 expect 0 env PATH="$work/bin:$PATH" "${slurm[@]}"
 expect 0 "$beadwork" batch "$deck" --out "$work/slurm" --vary 'E=50 GPa,100 GPa'
 grep -q "2 of them done already" "$work/output" || fail "the jobs did not run"
+
+echo "Slurm's jobs go on and begin anew as those of this machine do"
+printf '#!/bin/bash\nSLURM_ARRAY_TASK_ID=1 bash "${@: -1}" || true\n' >"$work/bin/sbatch"
+expect 0 env PATH="$work/bin:$PATH" "$beadwork" batch "$deck" --out "$work/full-slurm" --vary 'E=50 GPa' --set n=100000 --engine slurm
+grep -q "resumed at step" "$work/full-slurm/E=50-GPa/run.log" || fail "begun anew instead of resumed"
+expect 0 env PATH="$work/bin:$PATH" "${wild[@]}" --engine slurm
+! grep -q "resumed at step" "$work/wild/E=50-GPa/run.log" || fail "went on to fail again"
+
+echo "decks that were refused are not forgotten when others are submitted"
+sed 's|<scene |<scene plugins="${library}" |; s|<parameter name="v"|<parameter name="library" value="x"/>&|' "$deck" >"$work/library.xml"
+mkdir "$work/libraries"
+expect 4 env PATH="$work/bin:$PATH" "$beadwork" batch "$work/library.xml" --out "$work/refused" --vary "library=$work/libraries,$work/none.so" --engine slurm --keep-going
+says "1 runs submitted"
 
 echo "no value becomes a command"
 trap=$'50 GPa\ntouch hacked1\n' && odd="\$(touch $work/hacked2)\`touch $work/hacked3\`'; touch $work/hacked4; '\""

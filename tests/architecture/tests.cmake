@@ -11,6 +11,7 @@ architecture_test(include_directions /usr/bin/python3 ${here}/include_directions
 architecture_test(one_definition /usr/bin/python3 ${here}/one_definition.py ${PROJECT_SOURCE_DIR})
 architecture_test(docs_code_is_real /usr/bin/python3 ${here}/docs_code_is_real.py ${PROJECT_SOURCE_DIR})
 architecture_test(docs_sessions /usr/bin/python3 ${here}/docs_sessions.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
+architecture_test(describe /usr/bin/python3 ${here}/describe.py $<TARGET_FILE:beadwork_cli>)
 architecture_test(skeletons /usr/bin/python3 ${here}/skeletons.py $<TARGET_FILE:beadwork_cli>)
 architecture_test(batch bash ${here}/batch.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
 architecture_test(plan bash ${here}/plan.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)

@@ -36,6 +36,17 @@ TEST(Complaints, stand_in_the_order_of_the_files_whatever_order_they_came_in) {
       "a.xml:1:1: error: two\n\n^\nerror: nowhere\n4 errors, 1 warning");
 }
 
+TEST(Complaints, are_handed_over_one_by_one_in_their_order_however_many) {
+  Complaints complaints;
+  const auto deck = file("deck.xml", "1 error: a\n1 error: b\n");
+  complaints.warning({deck, 2, 1}, "two\nwarning: of two lines");
+  complaints.error({deck, 1, 1}, "one");
+  EXPECT_THAT(complaints.each(), testing::ElementsAre("deck.xml:1:1: error: one\n1 error: a\n^\n",
+                                                      "deck.xml:2:1: warning: two\nwarning: of two lines\n1 error: b\n^\n"));
+  for (int k = 0; k < 100; ++k) complaints.error({}, std::to_string(k));
+  EXPECT_EQ(complaints.each().size(), 102U);
+}
+
 TEST(Complaints, are_told_once_if_the_same_mistake_is_met_twice) {
   Complaints complaints;
   const auto deck = file("deck.xml", "x");

@@ -332,6 +332,7 @@ TEST_F(Report, what_cannot_be_read_costs_its_own_part_only) {
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("summary.json is not readable as JSON"));
   EXPECT_THAT(html, HasSubstr("force.json is not readable as JSON"));
+  EXPECT_THAT(html, HasSubstr("<li>run.log was left out: cannot read"));
   EXPECT_THAT(html, HasSubstr("it is a link"));
   EXPECT_THAT(html, Not(HasSubstr("root:")));
   EXPECT_THAT(html, HasSubstr("1 bond broke"));
@@ -345,6 +346,94 @@ TEST_F(Report, a_page_of_somebody_else_is_left_alone) {
   fs::remove(folder / "report.html");
   write_report(folder);
   EXPECT_NO_THROW(write_report(folder));
+}
+
+TEST_F(Report, where_no_list_tells_whose_a_page_is_only_one_of_ours_is_replaced) {
+  write(folder / "summary.json", R"({"status": "done"})");
+  write(folder / "report.html", "mine");
+  EXPECT_THROW(write_report(folder), DeckFailure);
+  EXPECT_EQ(read(folder / "report.html"), "mine");
+  fs::remove(folder / "report.html");
+  fs::create_symlink("nowhere", folder / "report.html");
+  EXPECT_THROW(write_report(folder), DeckFailure);
+  fs::remove(folder / "report.html");
+  write_report(folder);
+  EXPECT_NO_THROW(write_report(folder));
+}
+
+class BatchReport : public Report {
+ protected:
+  /// A table of runs k = 1, 2, ..., each with a curve of its own height.
+  void make_batch(int runs) {
+    std::string table = "run,k,status,steps\n";
+    for (int k = 1; k <= runs; ++k) {
+      const std::string name = fmt::format("k={}", k);
+      table += fmt::format("{},{},done,2\n", name, k);
+      write(folder / name / "summary.json", R"({"status": "done"})");
+      write(folder / name / "curves/force.csv", fmt::format("step [1],time [s],force [N]\n0,0,0\n1,1,{0}\n2,{1},{0}\n", k * k, 1 + k));
+    }
+    write(folder / "batch.csv", table);
+  }
+  std::string page() { return read(write_batch_report(folder)); }
+};
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST_F(BatchReport, lays_the_curves_of_all_runs_over_one_another_each_with_its_label) {
+  make_batch(9);
+  const std::string html = page();
+  EXPECT_EQ(count(html, "<figure class=\"chart\">"), 1);
+  EXPECT_EQ(count(html, "<path class=\"line"), 9);
+  for (int k = 1; k <= 9; ++k) EXPECT_EQ(count(html, fmt::format("</i>k = {}</span>", k)), 1) << k;
+}
+
+TEST_F(BatchReport, the_ninth_run_sets_the_scale_like_the_others) {
+  make_batch(9);
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("line s0 dashed")) << "told from the first by its stroke";
+  EXPECT_THAT(html, HasSubstr(">80</text>"));  // its force is 81 N
+  EXPECT_THAT(html, HasSubstr(">10</text>"));  // and its time 10 s
+  EXPECT_THAT(html, Not(HasSubstr("goes on to")));
+}
+
+TEST_F(BatchReport, reads_of_a_run_its_curves_only_and_says_which_run_lacks_what) {
+  make_batch(3);
+  write(folder / "k=1/run.h5", "this is not HDF5");
+  write(folder / "k=2/curves/force.csv", "step [1],time [s],force [N]\n0,0,0\n1,1,5\n2,2");
+  fs::remove_all(folder / "k=3");
+  const std::string html = page();
+  EXPECT_THAT(html, Not(HasSubstr("run.h5")));
+  EXPECT_THAT(html, HasSubstr("<li>k = 2: In curves/force.csv, 1 row was cut off"));
+  EXPECT_THAT(html, HasSubstr("<li>k = 3 has not begun.</li>"));
+  EXPECT_EQ(count(html, "<path class=\"line"), 2);
+}
+
+TEST_F(BatchReport, a_name_that_no_folder_can_have_costs_no_other_run) {
+  make_batch(2);
+  write(folder / "batch.csv", read(folder / "batch.csv") + std::string(300, 'n') + ",3,done,2\n");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<li>k = 3 has not begun.</li>"));
+  EXPECT_EQ(count(html, "<path class=\"line"), 2);
+}
+
+TEST_F(BatchReport, numbers_of_the_table_are_numbers_and_other_words_stay) {
+  make_batch(2);
+  write(folder / "batch.csv", "run,k,status,steps\nk=1,0x10,done,40000\nk=2,nan,done,2\n");
+  const std::string html = page();
+  EXPECT_THAT(html, HasSubstr("<td>0x10</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>nan</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>40\u202f000</td>"));
+}
+
+TEST_F(BatchReport, a_page_of_somebody_else_is_left_alone) {
+  make_batch(1);
+  write(folder / "report.html", "mine");
+  EXPECT_THROW(page(), DeckFailure);
+  EXPECT_EQ(read(folder / "report.html"), "mine");
 }
 
 TEST_F(Report, a_folder_that_is_no_run_is_refused) {
@@ -376,7 +465,7 @@ TEST(ReportTable, a_heading_has_a_name_and_a_unit) {
 TEST(ReportChart, a_reference_that_leaves_the_drawing_is_marked_with_how_far_it_goes) {
   report::Chart chart;
   chart.series.push_back({"force", {1, 2, 3}, {10, 11, 10}, 0, report::Stroke::solid});
-  chart.series.push_back({"theory", {1, 2, 3}, {10, 500, 11}, 1, report::Stroke::dashed});
+  chart.series.push_back({"theory", {1, 2, 3}, {10, 500, 11}, 1, report::Stroke::dashed, true});
   EXPECT_THAT(report::figure(chart), HasSubstr("↑ theory goes on to 500"));
   chart.series.back().y = {10, 11, 10};
   EXPECT_THAT(report::figure(chart), Not(HasSubstr("goes on to")));

@@ -90,7 +90,8 @@ TEST(Text, the_hash_is_sha_256) {
 TEST(Text, is_quoted_for_a_shell_where_it_has_to_be) {
   EXPECT_EQ(shell_quoted("a/b-c_1.xml"), "a/b-c_1.xml");
   EXPECT_EQ(shell_quoted("notch=0.8 mm"), "'notch=0.8 mm'");
-  EXPECT_EQ(shell_quoted("it's $HOME;\n"), "'it'\\''s $HOME;\n'");
+  EXPECT_EQ(shell_quoted("it's $HOME;"), "'it'\\''s $HOME;'");
+  EXPECT_EQ(shell_quoted("it's\n\\\x7f"), "$'it\\'s\\012\\\\\\177'") << "on one line";
   EXPECT_EQ(shell_quoted(""), "''");
   EXPECT_EQ(shell_quoted("~"), "'~'");
 }

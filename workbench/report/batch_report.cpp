@@ -1,11 +1,13 @@
 // The report of a batch: its table, and the curves of its runs laid over one another.
 
 #include <algorithm>
-#include <cmath>
+#include <deque>
 #include <map>
 
 #include "core/base/failure.hpp"
+#include "core/base/text.hpp"
 #include "core/io/file.hpp"
+#include "core/io/manifest.hpp"
 #include "workbench/report/report.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -17,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Row = std::vector<std::string>;
+
+constexpr std::uintmax_t longest_table = std::uintmax_t{1} << 30;
 
 /// Rows of a CSV file whose fields may be quoted, with commas and line breaks in them.
 std::vector<Row> rows_of(const std::string& text) {
@@ -50,7 +54,7 @@ struct Batch {
 
 Batch batch_in(const fs::path& folder) {
   Batch batch;
-  std::vector<Row> rows = rows_of(read_text(folder / "batch.csv"));
+  std::vector<Row> rows = rows_of(read_text(folder / "batch.csv", longest_table));
   const auto refuse = [&] { throw MachineFailure("'" + (folder / "batch.csv").string() + "' is not the table of a batch"); };
   if (rows.empty() || rows.front().front() != "run") refuse();
   batch.names = std::move(rows.front());
@@ -74,22 +78,16 @@ std::string label_of(const Batch& batch, const Row& run) {
 }
 
 std::string cell(const std::string& text) {
-  double value = 0;
-  std::size_t read = 0;
-  try {
-    value = std::stod(text, &read);
-  } catch (const std::exception&) {
-    read = 0;
-  }
-  const bool is_number = read > 0 && read == text.size() && std::isfinite(value);
-  return "<td>" + (is_number ? number(value) : escaped(text)) + "</td>";
+  const auto value = parse_number(text);
+  return "<td>" + (value ? number(*value) : escaped(text)) + "</td>";
 }
 
 std::string table(const Batch& batch, const fs::path& folder) {
   std::string head, body;
   for (const std::string& name : batch.names) head += "<th>" + escaped(name) + "</th>";
   for (const Row& run : batch.runs) {
-    const bool linked = is_plain_name(run.front()) && fs::exists(folder / run.front() / "report.html");
+    std::error_code error;  // of a name that is too long
+    const bool linked = is_plain_name(run.front()) && fs::exists(folder / run.front() / "report.html", error);
     body += "<tr><th>" + (linked ? "<a href=\"" + escaped(run.front()) + "/report.html\">" + escaped(run.front()) + "</a>" : escaped(run.front())) + "</th>";
     for (std::size_t k = 1; k < run.size(); ++k) body += k == batch.status ? "<td>" + badge(run[k]) + "</td>" : cell(run[k]);
     body += "</tr>\n";
@@ -97,34 +95,50 @@ std::string table(const Batch& batch, const fs::path& folder) {
   return section("Runs", "<div style=\"overflow-x:auto\"><table><thead><tr>" + head + "</tr></thead><tbody>" + body + "</tbody></table></div>");
 }
 
-std::string batch_page(const fs::path& folder) {
-  const Batch batch = batch_in(folder);
-  std::vector<std::pair<std::string, Run>> runs;
-  std::string missing;
+/// What the runs recorded of curves, with what there is to say of it.
+struct Found {
+  std::deque<Curve> curves;  // do not move
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::pair<std::string, const Curve*>>> by_name;
+  std::string notes;
+};
+
+void add_run(const fs::path& place, const std::string& label, Found& found) {
+  Run run = open_curves(place);
+  for (Curve& curve : run.curves) {
+    if (is_ledger(curve)) continue;
+    if (!found.by_name.contains(curve.name)) found.names.push_back(curve.name);
+    found.curves.push_back(std::move(curve));
+    found.by_name[found.curves.back().name].emplace_back(label, &found.curves.back());
+  }
+  for (const std::string& sentence : run.notes) found.notes += "<li>" + escaped(label + ": " + sentence) + "</li>";
+}
+
+Found curves_of(const Batch& batch, const fs::path& folder) {
+  Found found;
   for (const Row& row : batch.runs) {
-    const fs::path place = folder / row.front();
-    if (!is_plain_name(row.front()) || !fs::is_directory(place)) {
-      missing += "<li>" + escaped(label_of(batch, row)) + " has not begun.</li>";
+    const std::string label = label_of(batch, row);
+    std::error_code error;
+    if (!is_plain_name(row.front()) || !fs::is_directory(folder / row.front(), error)) {
+      found.notes += "<li>" + escaped(label) + " has not begun.</li>";
       continue;
     }
     try {
-      runs.emplace_back(label_of(batch, row), open_run(place));
-    } catch (const MachineFailure& failure) {
-      missing += "<li>" + escaped(failure.what()) + "</li>";
+      add_run(folder / row.front(), label, found);
+    } catch (const std::exception& failure) {
+      found.notes += "<li>" + escaped(label + ": " + failure.what()) + "</li>";
     }
   }
-  std::vector<std::string> names;
-  std::map<std::string, std::vector<std::pair<std::string, const Curve*>>> by_name;
-  for (const auto& [label, run] : runs)
-    for (const Curve& curve : run.curves) {
-      if (is_ledger(curve)) continue;
-      if (!by_name.contains(curve.name)) names.push_back(curve.name);
-      by_name[curve.name].emplace_back(label, &curve);
-    }
+  return found;
+}
+
+std::string batch_page(const fs::path& folder) {
+  const Batch batch = batch_in(folder);
+  Found found = curves_of(batch, folder);
   std::string charts;
-  for (const std::string& name : names) charts += overlaid(by_name[name]);
-  const std::string notes = missing.empty() ? "" : "<section class=\"notes\"><ul>" + missing + "</ul></section>\n";
-  const std::string title = escaped(fs::weakly_canonical(folder).filename().string());
+  for (const std::string& name : found.names) charts += overlaid(found.by_name[name]);
+  const std::string notes = found.notes.empty() ? "" : "<section class=\"notes\"><ul>" + found.notes + "</ul></section>\n";
+  const std::string title = escaped(name_of_folder(folder));
   const std::string curves = charts.empty() ? "" : section("Curves", "<div class=\"charts\">" + charts + "</div>");
   return page_with(title + " – Beadwork", "<h1>" + title + "</h1><p>" + plural(static_cast<std::int64_t>(batch.runs.size()), "run") + "</p>",
                    notes + curves + table(batch, folder));
@@ -139,9 +153,8 @@ bool is_batch(const std::filesystem::path& folder) {
 }
 
 std::string write_batch_report(const std::filesystem::path& batch_folder) {
-  const std::filesystem::path file = batch_folder / "report.html";
-  write_atomically(file, report::batch_page(batch_folder));
-  return file.string();
+  const std::string page = report::batch_page(batch_folder);
+  return report::put_page(batch_folder, Manifest::Of::batch, page);
 }
 
 }  // namespace beadwork

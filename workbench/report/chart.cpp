@@ -25,7 +25,7 @@ Range height_of(const Chart& chart) {
   for (const Series& s : chart.series) {
     const Range r = range_of(s.y);
     all = std::exchange(first_all, false) ? r : united(all, r);
-    if (s.stroke == Stroke::solid) run = std::exchange(first_run, false) ? r : united(run, r);
+    if (!s.reference) run = std::exchange(first_run, false) ? r : united(run, r);
   }
   if (first_run) return padded(all);
   const double room = 0.3 * std::max(run.span(), 1e-300);
@@ -36,7 +36,7 @@ Range width_of(const Chart& chart) {
   Range range{0, 0};
   bool first = true;
   for (const Series& s : chart.series)
-    if (s.stroke == Stroke::solid)
+    if (!s.reference)
       range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
   if (first)
     for (const Series& s : chart.series)
@@ -105,7 +105,7 @@ std::string readout(const Chart& chart, const Series& first, std::size_t i) {
 /// :hover.
 std::string probes_of(const Chart& chart, const Axes& axes) {
   const auto first = std::find_if(chart.series.begin(), chart.series.end(),
-                                  [](const Series& s) { return s.stroke == Stroke::solid && !s.x.empty(); });
+                                  [](const Series& s) { return !s.reference && !s.x.empty(); });
   if (first == chart.series.end()) return "";
   const bool rising = std::is_sorted(first->x.begin(), first->x.end());
   const std::size_t rows = first->x.size(), probes = std::min(rows, most_probes);
@@ -173,7 +173,7 @@ std::optional<Leaving> leaving_of(const Series& s, const Axes& axes, bool upward
 std::string leavings_of(const Chart& chart, const Axes& axes) {
   std::string out;
   for (const Series& s : chart.series) {
-    if (s.stroke == Stroke::solid) continue;
+    if (!s.reference) continue;
     for (const bool upwards : {true, false}) {
       const auto leaving = leaving_of(s, axes, upwards);
       if (!leaving) continue;

@@ -14,6 +14,7 @@ struct Series {
   std::vector<double> x, y;  ///< in the units of the axes; NaN is a gap
   int color = 0;             ///< 0 to 7
   Stroke stroke = Stroke::solid;
+  bool reference = false;  ///< from elsewhere: it does not set the scale, and may leave the drawing
 };
 
 /// A numbered dot on the first series, at its row `row`: where a picture was taken.

@@ -86,12 +86,12 @@ void add_references(Chart& chart, const Curve& curve, const Column& x, const std
   for (const Column& column : curve.table.columns)
     if (column.is_reference() && column.unit == unit && &column != &x)
       chart.series.push_back({reference_label(column), x_values, scaled(column.values, sy.factor),
-                              color++ % colors, Stroke::dashed});
+                              color++ % colors, Stroke::dashed, true});
   for (const Reference& reference : curve.references) {
     const Column& rx = reference.table.columns[0];
     const Column& ry = reference.table.columns[1];
     Series series{reference.label, in_units(rx, x.unit, sx), in_units(ry, unit, sy), color % colors,
-                  rx.values.size() <= 60 ? Stroke::points : Stroke::dashed};
+                  rx.values.size() <= 60 ? Stroke::points : Stroke::dashed, true};
     if (series.x.empty() || series.y.empty()) continue;
     ++color;
     chart.series.push_back(std::move(series));

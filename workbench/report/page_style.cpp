@@ -7,6 +7,7 @@ const std::string_view page_template = R"html(<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="generator" content="Beadwork">
 <meta name="color-scheme" content="light dark">
 <title>@title@</title>
 <style>@style@</style>

@@ -1,5 +1,6 @@
 #include "workbench/report/report.hpp"
 
+#include "core/base/failure.hpp"
 #include "core/io/manifest.hpp"
 #include "workbench/report/page_style.hpp"
 #include "workbench/report/sections.hpp"
@@ -77,15 +78,35 @@ std::string page_of(Run& run, const std::string& view) {
   return page_with(escaped(run.scene) + " – Beadwork", header(run), notes(run) + body);
 }
 
+// A folder without a list may be one of an earlier version, or a copy: there a page of ours is known by what it says of itself.
+bool is_ours(const std::filesystem::path& page) {
+  constexpr std::uintmax_t longest = std::uintmax_t{1} << 31;
+  try {
+    return read_text(page, longest).find(maker_of_page) != std::string::npos;
+  } catch (const MachineFailure&) {  // a link, a pipe
+    return false;
+  }
+}
+
 }  // namespace
+
+std::string put_page(const std::filesystem::path& folder, Manifest::Of of, const std::string& page) {
+  const std::filesystem::path file = folder / "report.html";
+  std::error_code error;
+  if (auto list = Manifest::read(folder, of))
+    list->claim("report.html");
+  else if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) && !is_ours(file))
+    throw DeckFailure("'" + file.string() + "' is there already, and is no report of Beadwork: it is left alone. Rename it");
+  write_atomically(file, page);
+  return file.string();
+}
+
 }  // namespace report
 
 std::string write_report(const std::filesystem::path& run_folder, const std::string& view) {
   report::Run run = report::open_run(run_folder);
-  const std::filesystem::path file = run_folder / "report.html";
-  if (auto list = Manifest::read(run_folder)) list->claim("report.html");
-  write_atomically(file, report::page_of(run, view));
-  return file.string();
+  const std::string page = report::page_of(run, view);
+  return report::put_page(run_folder, Manifest::Of::run, page);
 }
 
 }  // namespace beadwork

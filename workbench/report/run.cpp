@@ -30,7 +30,7 @@ std::string text_of_file(const fs::path& file, std::uintmax_t longest, std::vect
   try {
     return beadwork::read_text(file, longest);
   } catch (const MachineFailure& problem) {
-    notes.push_back("It was left out what " + file.filename().string() + " says: " + problem.what() + ".");
+    notes.push_back(file.filename().string() + " was left out: " + problem.what() + ".");
     return "";
   }
 }
@@ -181,6 +181,12 @@ void read_notes(Run& run) {
 
 }  // namespace
 
+std::string name_of_folder(const fs::path& folder) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(folder, error);
+  return (error ? folder : whole).filename().string();
+}
+
 std::string text_of(const Json& json, const std::string& key, const std::string& otherwise) {
   if (!json.is_object()) return otherwise;
   const auto found = json.find(key);
@@ -188,8 +194,12 @@ std::string text_of(const Json& json, const std::string& key, const std::string&
   return found->is_string() ? found->get<std::string>() : json_text(*found);
 }
 
-Run open_run(const fs::path& folder) {
-  if (!fs::is_directory(folder))
+Run open_curves(const fs::path& folder) {
+  std::error_code error;
+  const bool there = fs::is_directory(folder, error);
+  if (error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels)
+    throw DeckFailure("cannot use '" + folder.string() + "': " + error.message());
+  if (!there)
     throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
   const auto written = {"summary.json", "resolved.xml", "run.log", "run.h5"};
   if (std::none_of(written.begin(), written.end(),
@@ -200,20 +210,25 @@ Run open_run(const fs::path& folder) {
   Run run;
   run.folder = folder;
   run.summary = read_json(folder / "summary.json", run.notes);
-  run.deck = text_of_file(folder / "resolved.xml", longest_text, run.notes);
-  run.log = text_of_file(folder / "run.log", longest_text, run.notes);
   read_status(run);
   read_notes(run);
   run.scene = text_of(run.summary, "scene", text_of(run.summary, "name"));
-  if (run.scene.empty()) run.scene = name_in_deck(run.deck);
   read_curves(run);
+  return run;
+}
+
+Run open_run(const fs::path& folder) {
+  Run run = open_curves(folder);
+  run.deck = text_of_file(folder / "resolved.xml", longest_text, run.notes);
+  run.log = text_of_file(folder / "run.log", longest_text, run.notes);
+  if (run.scene.empty()) run.scene = name_in_deck(run.deck);
   read_record(run);
   try {
     complete_from_record(run);
   } catch (const std::exception& problem) {
     run.notes.push_back("What run.h5 says of the run cannot be read (" + std::string(problem.what()) + ").");
   }
-  if (run.scene.empty()) run.scene = fs::weakly_canonical(folder).filename().string();
+  if (run.scene.empty()) run.scene = name_of_folder(folder);
   if (run.deck.empty()) run.notes.emplace_back("There is no resolved.xml, so the deck is not shown.");
   if (run.log.empty()) run.notes.emplace_back("There is no run.log, or it is empty.");
   return run;

@@ -39,6 +39,11 @@ struct Run {
 
 /// Throws MachineFailure if the folder does not exist or holds nothing that a run writes.
 Run open_run(const std::filesystem::path& folder);
+/// The same, with its summary, its curves and what is to be said of them only.
+Run open_curves(const std::filesystem::path& folder);
+
+/// What a folder is called, also where it is given as "." or with a slash behind.
+std::string name_of_folder(const std::filesystem::path& folder);
 
 /// The value of a key as text, or `otherwise`.
 std::string text_of(const Json&, const std::string& key, const std::string& otherwise = "");

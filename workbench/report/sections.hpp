@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/manifest.hpp"
 #include "workbench/report/run.hpp"
 
 namespace beadwork::report {
@@ -38,6 +39,8 @@ bool is_ledger(const Curve&);
 /// The row of the table nearest to the frame, by time or else by step.
 std::size_t row_at(const Table&, const record::FrameHead&);
 
+/// Writes the page as report.html, which the list of the folder then names. DeckFailure if somebody else's page stands there.
+std::string put_page(const std::filesystem::path& folder, Manifest::Of of, const std::string& page);
 /// The whole page; title and texts are HTML already.
 std::string page_with(const std::string& title, const std::string& head, const std::string& body);
 /// Of a status: the class decides the badge's colour; one that nobody foresaw is shown as it is, in grey.

@@ -7,8 +7,6 @@
 #include <optional>
 #include <string_view>
 
-#include "core/io/file.hpp"
-
 namespace beadwork::report {
 
 namespace {
@@ -49,8 +47,6 @@ std::optional<double> value_of(std::string_view cell) {
   return value;
 }
 
-constexpr std::uintmax_t longest_text = std::uintmax_t{1} << 31;
-
 bool append_row(Table& table, std::string_view line) {
   const auto cells = cells_of(line);
   if (cells.size() != table.columns.size()) return false;
@@ -90,16 +86,6 @@ Table parse_table(const std::string& text, bool growing) {
     }
   }
   return table;
-}
-
-Table read_table(const std::filesystem::path& file, bool growing) { return parse_table(read_text(file), growing); }
-
-std::string read_text(const std::filesystem::path& file) {
-  try {
-    return beadwork::read_text(file, longest_text);
-  } catch (const MachineFailure&) {
-    return "";
-  }
 }
 
 }  // namespace beadwork::report

@@ -1,7 +1,6 @@
 #pragma once
 // Curves as CSV: the first line names the columns with their units, `step [1],time [s],force [N]`.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,10 +24,6 @@ struct Table {
 /// A row that is not whole is dropped and counted. `growing`: a last line without its end is one still being
 /// written.
 Table parse_table(const std::string& text, bool growing);
-Table read_table(const std::filesystem::path&, bool growing);
-
-/// The whole file; empty if it is no regular file, or cannot be read.
-std::string read_text(const std::filesystem::path&);
 
 /// Numbers beyond it are no measure of anything, and their squares overflow.
 constexpr double largest_drawn = 1e150;

@@ -48,3 +48,11 @@ narrow, wide = [line for width, line in seen if width == 30], [line for width, l
 assert not any("[" in line for line in narrow), narrow
 # The first line may have been measured before the terminal became wider.
 assert all(re.match(r" +\d+ % \[#*\.+\] (\d.* to go  )?stage 'run', step \d+, time .* s, 0 breaks, largest utilisation 0$", line) for line in wide[1:]), wide
+
+# A batch: how far its runs have come before one has ended, and how long all will take.
+batch = ["beadwork", "batch", deck, "--out", out + "-batch", "--threads", "1", "--vary", "end=20000000,20000001", "--jobs", "2"]
+seen = [line for _, line in lines_on_terminal(batch, [160], 20)]
+assert all(line.endswith("batch, 0 of 2 runs done, 2 at work") for line in seen), seen
+shares = [int(line.split("%")[0]) for line in seen]
+assert shares == sorted(shares) and shares[-1] > shares[0], seen
+assert re.match(r" *\d+ % \[#*\.*\] \d.* to go  batch", seen[-1]), seen

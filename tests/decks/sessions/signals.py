@@ -1,4 +1,4 @@
-"""What the system does to a run while it goes on.   Usage: signals.py FOLDER signals | closed-pipe | closed-streams | file-limit"""
+"""What the system does to a run while it goes on.   Usage: signals.py FOLDER signals | nohup-of-a-batch | closed-pipe | closed-streams | file-limit"""
 import json
 import os
 import resource
@@ -56,6 +56,17 @@ def signals():
     assert kept.wait() == 0, "nohup asks to be left alone by SIGHUP"
 
 
+def nohup_of_a_batch():
+    """The terminal is closed, and all of its processes hear of it: batch and runs go on."""
+    command = ["beadwork", "batch", "signals.xml", "--out", str(out / "batch"), "--threads", "1", "--vary", "end=30000,30001"]
+    batch = subprocess.Popen(["nohup", *command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    for name in ("batch/end=30000", "batch/end=30001"):
+        wait_for_rows(name, batch)
+    os.killpg(batch.pid, signal.SIGHUP)
+    assert batch.wait() == 0, batch.returncode
+    assert summary("batch/end=30000")["status"] == summary("batch/end=30001")["status"] == "done"
+
+
 def closed_pipe():
     """Nobody reads what the run says: it goes on, and its log is whole."""
     read, write = os.pipe()
@@ -99,4 +110,4 @@ def file_limit():
     same_curves("limit")
 
 
-{"signals": signals, "closed-pipe": closed_pipe, "closed-streams": closed_streams, "file-limit": file_limit}[sys.argv[2]]()
+{"signals": signals, "nohup-of-a-batch": nohup_of_a_batch, "closed-pipe": closed_pipe, "closed-streams": closed_streams, "file-limit": file_limit}[sys.argv[2]]()
