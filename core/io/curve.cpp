@@ -48,9 +48,9 @@ std::uintmax_t kept_length(const std::filesystem::path& file, const CurveEnd& en
   std::ifstream in = open_to_read(file);
   const std::string head = head_of(in, file);
   if (end.length > 0 && head != end.first_line)
-    throw MachineFailure(fmt::format("curve '{}' has the columns \"{}\", the checkpoint knows it with \"{}\"; put that line back, or remove "
-                                     "the file to go on without its rows",
-                                     file.string(), head, end.first_line));
+    throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", the checkpoint knows it with \"{}\"; put that line back, or remove "
+                                  "the file to go on without its rows",
+                                  file.string(), head, end.first_line));
   std::uintmax_t length = head.size() + 1;
   for (std::string row; length < end.length && std::getline(in, row) && !in.eof();) length += row.size() + 1;
   return length;

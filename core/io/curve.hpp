@@ -65,7 +65,7 @@ struct CurveCut {
 /// The cuts that take these curves back to a checkpoint, which knows how each stood, by its name: rows that came later go, be they of
 /// its very step, and a last row that a kill has torn. Of a curve that has been cut shorter whole rows stay; of one that the checkpoint does
 /// not know the first line. Changes nothing: a resume looks at everything before it cuts anything. MachineFailure if one cannot be read,
-/// or has other columns than it had.
+/// DeckFailure if it has other columns than it had.
 std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const std::vector<std::filesystem::path>& files);
 void cut(const std::vector<CurveCut>& cuts);
 

@@ -39,8 +39,9 @@ class Ledger {
   }
 
   /// Where something breaks, the forces jump, and the scheme keeps the energy less what follows from them (Mover::shadow_energy): what a jump
-  /// adds to that is lost to the balance, by the size of the step. docs/theory/bond-failure.md
-  void note_break(Real shadow_before, Real shadow_after) { lost_at_breaks_ += shadow_after - shadow_before; }
+  /// adds to that is lost to the balance, by the size of the step. A jump down is no gain that could be excused: before it, what the scheme
+  /// does not keep may have grown out of nothing. docs/theory/bond-failure.md
+  void note_break(Real shadow_before, Real shadow_after) { lost_at_breaks_ += std::max(Real(0), shadow_after - shadow_before); }
 
   Real lost_at_breaks() const { return lost_at_breaks_; }  ///< [J]
   Real brought() const { return brought_; }      ///< largest so far: |work| + |what was there| [J]

@@ -119,7 +119,7 @@ TEST(Curve, one_whose_columns_the_checkpoint_knows_otherwise_is_refused_before_a
     add(curve, 100, 1, 2);
   }
   const std::string before = text_of(scratch / "force.csv");
-  const auto said = message_of<MachineFailure>([&] {
+  const auto said = message_of<DeckFailure>([&] {
     cut(cuts_to({{"force", {28, time_and_force_line}}, {"other", {28, "step [1],time [s],force [kN]"}}}, {scratch / "force.csv", scratch / "other.csv"}));
   });
   EXPECT_THAT(said, HasSubstr("other.csv"));

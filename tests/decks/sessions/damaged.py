@@ -27,7 +27,7 @@ def went_on():
 
 
 def older():
-    edit_checkpoint(run / "checkpoint.h5", lambda root: root["meta"].attrs.__setitem__("version", "0.0.9"))
+    edit_checkpoint(run / "checkpoint.h5", lambda root: root["meta"].attrs.__setitem__("version", np.bytes_("0.0.9")))
 
 
 def files():
