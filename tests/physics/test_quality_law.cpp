@@ -52,6 +52,40 @@ TEST(QualityOfRuns, a_free_motion_is_followed_as_far_as_it_goes) {
   EXPECT_NEAR(run.summary.at("quality").at("free_motion").get<Real>(), 0.5e-3, 1e-6);
 }
 
+// Gripped along x only, a short block gets thinner as it is pulled, which is no motion as a whole.
+TEST(QualityOfRuns, what_gets_thinner_does_not_drift) {
+  const auto run = testing::run_deck(R"(<scene seed="3">
+    <fill><free-filling set="all" box="6 6 6 mm" count="150" density="1600 kg/m^3"/><forced-filling set="all"/><relaxation set="all"/>
+      <region set="left" where="x &lt; 1.2 mm"/><region set="right" where="x > 4.8 mm"/></fill>
+    <bond><cohesive-beam name="beam" between="all all" young="500 GPa" radius-ratio="0.2"/></bond>
+    <load><hold set="left" axes="x"/><pull set="right" axis="x" velocity="0.2 m/s" rise="0.05 ms"/></load>
+    <move><verlet bond-damping="0.1" until="0.02 mm"/></move>
+  </scene>)");
+  const auto quality = run.summary.at("quality");
+  ASSERT_EQ(quality.at("free_bodies").at(0).at("free_to"), (std::vector<std::string>{"move along y", "move along z", "turn about x"}));
+  EXPECT_LT(quality.at("free_motion_over_prescribed"), 0.02) << quality.dump(1);
+}
+
+// One mean over two bars is one support, and they fly apart; of one bar it is a support of that one, the other being held otherwise.
+TEST(QualityOfRuns, bodies_that_share_a_support_are_free_against_each_other) {
+  const auto bars = [](const std::string& load) {
+    return testing::run_deck(fmt::format(R"(<scene>
+      <fill><lattice set="a" count="6 2 2" radius="1 mm" density="2000 kg/m^3"/><lattice set="b" count="6 2 2" radius="1 mm" density="2000 kg/m^3" from="0 20 0 mm"/>
+        <region set="all" where="x > -100 mm"/><region set="end" where="x &lt; 1 mm and y > 10 mm"/></fill>
+      <bond><cohesive-beam name="a" between="a a" young="10 GPa" radius-ratio="0.5"/><cohesive-beam name="b" between="b b" young="10 GPa" radius-ratio="0.5"/></bond>
+      <load>{}</load>
+      <move><verlet until="1 ms"/></move>
+    </scene>)",
+                                         load));
+  };
+  const auto apart = bars(R"(<hold set="all" axes="x y z rx ry rz" grip="mean"/><initial-velocity set="a" velocity="0.1 0 0 m/s"/>
+    <initial-velocity set="b" velocity="-0.1 0 0 m/s"/>)");
+  EXPECT_THAT(apart.said, Contains(HasSubstr("a body of 24 bonded elements is free to move and turn any way")).Times(2));
+  EXPECT_NEAR(apart.summary.at("quality").at("free_motion").get<Real>(), 1e-4, 1e-6);
+  const auto held = bars(R"(<hold set="a" axes="x y z rx ry rz" grip="mean"/><hold set="b" axes="x y z rx ry rz" grip="mean"/>)");
+  EXPECT_THAT(held.summary.at("quality").at("free_bodies"), IsEmpty());
+}
+
 TEST(QualityOfRuns, nothing_is_said_of_a_body_that_is_held) {
   const auto run = bar(R"(<hold set="left"/><pull set="right" axis="x" velocity="0.02 m/s" rise="0.5 ms"/>)", "20");
   EXPECT_THAT(run.said, ::testing::Not(Contains(HasSubstr("is free to"))));
