@@ -31,6 +31,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       if (std::none_of(figures_.largest_uses.begin(), figures_.largest_uses.end(), [&](const auto& known) { return known.first == failure; }))
         figures_.largest_uses.emplace_back(failure, LargestUse{});
   gather_constraints();
+  for (const auto& stage : constraints_) quality_.follow(stage.size());
   add_state_columns();
   bind_all();
 }
@@ -221,6 +222,7 @@ void Run::log_events() {
   for (auto& [law, table] : laws_) {
     const auto events = blaming(*law, moment_, [&, law = law] { return law->events(); });
     if (events.empty()) continue;
+    look_at_first_break();
     BreakLog& log = domain().breaks();
     const auto x = domain().elements().column("position").view<Vec3>();
     for (const BondEvent& event : events) {
@@ -247,6 +249,7 @@ void Run::break_bonds() {
   }
   if (verdicts.empty()) return;
   complete();  // with the forces of the bonds that break
+  look_at_first_break();
   std::set<BondTable*> touched;
   const auto x = domain().elements().column("position").view<Vec3>();
   BreakLog& log = domain().breaks();

@@ -154,6 +154,9 @@ class Run final : private Workings, private Sight {
   void check_balance();
   void find_free_motions();
   void look_at_quality(const EnergySums& sums);
+  void look_at_first_break();
+  bool prescribes() const;
+  Real farthest_prescribed() const;
   QualityFigures quality() const;
   Real round_off() const;
 
