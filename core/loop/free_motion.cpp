@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -17,6 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr std::size_t most_named = 4;
+const Field start_field{"free-start", On::elements, Type::vec3, "m", "Where the element of a body that is free in some way stood when the stage began", ""};
+const Field body_field{"free-body", On::elements, Type::index, "1", "Which of the free bodies it belongs to, from 1 on; 0: none", ""};
 
 /// What is known of each body while its supports are gathered.
 struct Gathered {
@@ -24,10 +27,12 @@ struct Gathered {
   Vec3 centre = Vec3::Zero();
   Real length = 0;
   RigidMatrix held = RigidMatrix::Zero(), inertia = RigidMatrix::Zero();
+  std::map<Index, Rigid> shared;  // its part of the supports that hold several bodies by one mean, by their number
 };
+using All = std::map<Index, Gathered>;
 
-std::map<Index, Gathered> members_of(const std::vector<Index>& body) {
-  std::map<Index, Gathered> all;
+All members_of(const std::vector<Index>& body) {
+  All all;
   for (std::size_t row = 0; row < body.size(); ++row) all[body[row]].members.push_back(static_cast<Index>(row));
   std::erase_if(all, [](const auto& entry) { return entry.second.members.size() < 2; });
   return all;
@@ -60,65 +65,116 @@ Rigid felt(const Gathered& body, const Vec3& place, int axis) {
   return Rigid::Unit(axis);
 }
 
-// Each member by itself, or their mean: of order 1 for each body that the set is a part of.
-void support(std::map<Index, Gathered>& all, const Domain& domain, const Constraint& c, const Set& set, const std::vector<Index>& body) {
+// Each member by itself: of order 1 for each body that the set is a part of.
+void support_each(All& all, const Domain& domain, const Constraint& c, const std::vector<Index>& body) {
   const auto x = domain.elements().column("position").view<Vec3>();
   struct Sum {
     Index count = 0;
-    Rigid mean = Rigid::Zero();
     RigidMatrix squares = RigidMatrix::Zero();
   };
   std::map<Index, Sum> sums;
-  for (const Index row : set) {
+  for (const Index row : domain.set(c.set)) {
     const auto of = all.find(body[static_cast<std::size_t>(row)]);
     if (of == all.end()) continue;
     const Rigid r = felt(of->second, x[row], c.axis);
     Sum& sum = sums[of->first];
     ++sum.count;
-    sum.mean += r;
     sum.squares += r * r.transpose();
   }
-  for (const auto& [first, sum] : sums) {
-    const Rigid mean = sum.mean / sum.count;
-    all[first].held += c.grip == Grip::mean ? RigidMatrix(mean * mean.transpose()) : RigidMatrix(sum.squares / sum.count);
+  for (const auto& [first, sum] : sums) all[first].held += sum.squares / sum.count;
+}
+
+// The mean of all members is one number, of however many bodies: each alone may do what the others make up for.
+void support_mean(All& all, const Domain& domain, const Constraint& c, const std::vector<Index>& body, Index number) {
+  const auto x = domain.elements().column("position").view<Vec3>();
+  const Set set = without_debris(domain.set(c.set), body);
+  std::map<Index, Rigid> parts;
+  for (const Index row : set) {
+    const auto of = all.find(body[static_cast<std::size_t>(row)]);
+    if (of != all.end()) parts.try_emplace(of->first, Rigid::Zero()).first->second += felt(of->second, x[row], c.axis) / static_cast<Real>(set.size());
+  }
+  if (parts.size() == 1) {
+    all[parts.begin()->first].held += parts.begin()->second * parts.begin()->second.transpose();
+    return;
+  }
+  for (const auto& [first, part] : parts) all[first].shared[number] = part;
+}
+
+using Rows = Eigen::MatrixXd;
+
+// Its rows of the shared supports, `count` of them, of order 1.
+Rows shared_rows(const Gathered& body, Index count) {
+  Rows rows = Rows::Zero(count, 6);
+  Real largest = 0;
+  for (const auto& [number, part] : body.shared) {
+    rows.row(number) = part.transpose();
+    largest = std::max(largest, part.norm());
+  }
+  return largest > 0 ? Rows(rows / largest) : rows;
+}
+
+// A shared support holds a body so far as no other can make up for it: where its motion is felt in a way in which that of no other is.
+void hold_by_shared(All& all, Index count) {
+  if (count == 0) return;
+  std::map<Index, Rows> could;  // what each could make the supports feel, by what its own leave free
+  Rows sum = Rows::Zero(count, count);
+  for (const auto& [first, body] : all) {
+    if (body.shared.empty()) continue;
+    const Rows rows = shared_rows(body, count) * free_modes(body.held, body.inertia);
+    sum += rows * rows.transpose();
+    could[first] = rows;
+  }
+  for (const auto& [first, rows] : could) {
+    constexpr Real none = 1e-9;  // as of free_modes
+    const Eigen::SelfAdjointEigenSolver<Rows> others(sum - rows * rows.transpose());
+    Gathered& body = all[first];
+    const Rows seen = others.eigenvectors().transpose() * shared_rows(body, count);
+    for (Eigen::Index k = 0; k < count; ++k)
+      if (others.eigenvalues()[k] < none) body.held += seen.row(k).transpose() * seen.row(k);
   }
 }
 
-std::vector<Index> outmost_of(const Gathered& body, const Domain& domain) {
-  const auto x = domain.elements().column("position").view<Vec3>();
-  std::vector<Index> rows;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax_element(body.members.begin(), body.members.end(), [&](Index a, Index b) { return x[a][axis] < x[b][axis]; });
-    rows.insert(rows.end(), {*low, *high});
-  }
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
+void require(bool whole) {
+  if (!whole) throw std::runtime_error("what is known of free bodies is not whole");
 }
 
 }  // namespace
 
-FreeMotions FreeMotions::find(const Domain& domain, std::span<const BondTable* const> tables, std::span<const Constraint> constraints, bool turning,
-                              std::int64_t step) {
+FreeMotions FreeMotions::find(Domain& domain, std::span<const BondTable* const> tables, std::span<const Constraint> constraints, bool turning, std::int64_t step) {
   FreeMotions found;
   const std::vector<Index> body = bodies(domain, tables, step);
-  auto all = members_of(body);
+  All all = members_of(body);
   for (auto& entry : all) weigh(entry.second, domain, turning);
-  for (const Constraint& c : constraints)
-    if (c.axis < 3 || turning)
-      support(all, domain, c, c.grip == Grip::mean ? without_debris(domain.set(c.set), body) : domain.set(c.set), body);
+  Index means = 0;
+  for (const Constraint& c : constraints) {
+    if (c.axis >= 3 && !turning) continue;
+    c.grip == Grip::mean ? support_mean(all, domain, c, body, means++) : support_each(all, domain, c, body);
+  }
+  hold_by_shared(all, means);
   std::vector<std::pair<const Gathered*, RigidModes>> free;
   for (const auto& entry : all)
     if (RigidModes modes = free_modes(entry.second.held, entry.second.inertia); modes.cols() > 0) free.emplace_back(&entry.second, std::move(modes));
   std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first->members.size() > b.first->members.size(); });
-  const auto x = domain.elements().column("position").view<Vec3>();
+  std::vector<std::vector<Index>> members;
   for (const auto& [of, modes] : free) {
     if (found.bodies_.size() == most_named) break;
-    Body& one = found.bodies_.emplace_back(Body{static_cast<Index>(of->members.size()), names_of(modes), modes, of->centre, of->length, outmost_of(*of, domain), {}});
-    for (const Index row : one.outmost) one.start.push_back(x[row]);
+    found.bodies_.push_back({static_cast<Index>(of->members.size()), names_of(modes), modes, of->centre, of->length});
+    members.push_back(of->members);
   }
   found.others_ = free.size() - found.bodies_.size();
+  if (found.any()) found.follow(domain, members);
   return found;
+}
+
+// In columns, for they are as many numbers as elements; a scene in which nothing is free has none.
+void FreeMotions::follow(Domain& domain, const std::vector<std::vector<Index>>& members) const {
+  Table& elements = domain.elements();
+  for (const Field* field : {&start_field, &body_field}) elements.add(*field).keep();
+  const auto x = elements.column("position").view<Vec3>(), start = elements.column(start_field.name).view<Vec3>();
+  const auto body = elements.column(body_field.name).view<Index>();
+  for (Index row = 0; row < domain.size(); ++row) start.set(row, x[row]), body[row] = 0;
+  for (std::size_t k = 0; k < members.size(); ++k)
+    for (const Index row : members[k]) body[row] = static_cast<Index>(k + 1);
 }
 
 std::vector<std::string> FreeMotions::words() const {
@@ -130,29 +186,42 @@ std::vector<std::string> FreeMotions::words() const {
   return lines;
 }
 
-Real FreeMotions::moved(const Domain& domain) const {
-  Real farthest = 0;
-  for (const Body& body : bodies_) farthest = std::max(farthest, moved(domain, body));
-  return farthest;
+// Of each body the free part of the rigid motion that fits best, by mass, what its members have moved: what it stretches or swells is none.
+std::vector<Rigid> FreeMotions::motions(const Domain& domain) const {
+  const auto x = domain.elements().column("position").view<Vec3>(), start = domain.elements().column(start_field.name).view<Vec3>();
+  const auto mass = domain.elements().column("mass").view<Real>();
+  const auto which = domain.elements().column(body_field.name).view<Index>();
+  std::vector<RigidMatrix> square(bodies_.size(), RigidMatrix::Zero());
+  std::vector<Rigid> motion(bodies_.size(), Rigid::Zero());
+  for (Index row = 0; row < domain.size(); ++row) {
+    if (which[row] == 0) continue;
+    const auto k = static_cast<std::size_t>(which[row] - 1);
+    const auto at = rigid_at(start[row] - bodies_[k].centre, bodies_[k].length);
+    square[k] += mass[row] * at.transpose() * at;
+    motion[k] += mass[row] * at.transpose() * (x[row] - start[row]);
+  }
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    Eigen::CompleteOrthogonalDecomposition<RigidMatrix> fit;  // a straight row of elements does not turn about itself
+    fit.setThreshold(1e-9);
+    fit.compute(square[k]);
+    const Rigid whole = fit.solve(motion[k]);
+    motion[k] = bodies_[k].modes * (bodies_[k].modes.transpose() * whole);
+  }
+  return motion;
 }
 
-// The rigid motion that fits best what the outmost members have moved, and of it the part that is free.
-Real FreeMotions::moved(const Domain& domain, const Body& body) const {
-  const auto x = domain.elements().column("position").view<Vec3>();
-  const auto count = static_cast<Eigen::Index>(body.outmost.size());
-  Eigen::Matrix<Real, Eigen::Dynamic, 6> motions(3 * count, 6);
-  Eigen::VectorXd shifts(3 * count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const auto n = static_cast<std::size_t>(k);
-    motions.middleRows<3>(3 * k) = rigid_at(body.start[n] - body.centre, body.length);
-    shifts.segment<3>(3 * k) = x[body.outmost[n]] - body.start[n];
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> fit(motions, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Rigid motion = fit.solve(shifts);
-  const Eigen::VectorXd free = motions * (body.modes * (body.modes.transpose() * motion));
+Real FreeMotions::moved(const Domain& domain) const {
+  if (!any()) return 0;
+  const auto start = domain.elements().column(start_field.name).view<Vec3>();
+  const auto which = domain.elements().column(body_field.name).view<Index>();
+  const std::vector<Rigid> motion = motions(domain);
   Real farthest = 0;
-  for (Eigen::Index k = 0; k < count; ++k) farthest = std::max(farthest, free.segment<3>(3 * k).norm());
-  return farthest;
+  for (Index row = 0; row < domain.size(); ++row) {
+    if (which[row] == 0) continue;
+    const auto k = static_cast<std::size_t>(which[row] - 1);
+    farthest = std::max(farthest, (rigid_at(start[row] - bodies_[k].centre, bodies_[k].length) * motion[k]).squaredNorm());
+  }
+  return std::sqrt(farthest);
 }
 
 Json FreeMotions::json() const {
@@ -162,32 +231,29 @@ Json FreeMotions::json() const {
 }
 
 Json FreeMotions::saved() const {
-  const auto vector = [](const Vec3& v) { return Json{v[0], v[1], v[2]}; };
   Json all = Json::array();
   for (const Body& body : bodies_) {
-    Json start = Json::array(), modes = Json::array();
-    for (const Vec3& place : body.start) start.push_back(vector(place));
+    Json modes = Json::array();
     for (Eigen::Index k = 0; k < body.modes.cols(); ++k) modes.push_back(std::vector<Real>(body.modes.col(k).begin(), body.modes.col(k).end()));
-    all.push_back({{"elements", body.elements}, {"motions", body.motions}, {"modes", modes}, {"centre", vector(body.centre)}, {"length", body.length},
-                   {"outmost", body.outmost}, {"start", start}});
+    all.push_back({{"elements", body.elements}, {"motions", body.motions}, {"modes", modes}, {"centre", {body.centre[0], body.centre[1], body.centre[2]}}, {"length", body.length}});
   }
   return {{"bodies", all}, {"others", others_}};
 }
 
-std::optional<FreeMotions> FreeMotions::restored(const Json& saved, Index elements) try {
+std::optional<FreeMotions> FreeMotions::restored(const Json& saved, const Domain& domain) try {
   FreeMotions found;
-  for (const Json& one : saved.at("bodies")) found.bodies_.push_back(body_of(one, elements));
+  for (const Json& one : saved.at("bodies")) found.bodies_.push_back(body_of(one));
   found.others_ = saved.at("others").get<std::size_t>();
+  if (!found.any()) return found;
+  domain.elements().column(start_field.name).view<Vec3>();
+  const auto which = domain.elements().column(body_field.name).view<Index>();
+  for (Index row = 0; row < domain.size(); ++row) require(which[row] >= 0 && which[row] <= static_cast<Index>(found.bodies_.size()));
   return found;
 } catch (const std::exception&) {
   return std::nullopt;
 }
 
-FreeMotions::Body FreeMotions::body_of(const Json& saved, Index elements) {
-  const auto require = [](bool whole) {
-    if (!whole) throw std::runtime_error("a free body that is not whole");
-  };
-  const auto vector = [](const Json& v) { return Vec3(v.at(0).get<Real>(), v.at(1).get<Real>(), v.at(2).get<Real>()); };
+FreeMotions::Body FreeMotions::body_of(const Json& saved) {
   Body body;
   body.elements = saved.at("elements").get<Index>();
   body.motions = saved.at("motions").get<std::vector<std::string>>();
@@ -195,12 +261,9 @@ FreeMotions::Body FreeMotions::body_of(const Json& saved, Index elements) {
   body.modes.resize(6, static_cast<Eigen::Index>(saved.at("modes").size()));
   for (Eigen::Index k = 0; k < body.modes.cols(); ++k)
     for (Eigen::Index r = 0; r < 6; ++r) body.modes(r, k) = saved.at("modes").at(static_cast<std::size_t>(k)).at(static_cast<std::size_t>(r)).get<Real>();
-  body.centre = vector(saved.at("centre"));
+  for (int axis = 0; axis < 3; ++axis) body.centre[axis] = saved.at("centre").at(static_cast<std::size_t>(axis)).get<Real>();
   body.length = saved.at("length").get<Real>();
-  body.outmost = saved.at("outmost").get<std::vector<Index>>();
-  for (const Json& place : saved.at("start")) body.start.push_back(vector(place));
-  require(body.length > 0 && !body.outmost.empty() && body.outmost.size() == body.start.size());
-  require(std::all_of(body.outmost.begin(), body.outmost.end(), [&](Index row) { return row >= 0 && row < elements; }));
+  require(body.length > 0);
   return body;
 }
 

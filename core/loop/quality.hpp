@@ -29,14 +29,16 @@ struct QualityFigures {
   Real imbalance = 0;           ///< largest sum of prescribed forces while loaded over the largest of them, until something breaks
   Real imbalance_cracking = 0;  ///< and from then on
   Real free_motion = 0;         ///< farthest that something undamaged moved as nothing holds it [m]
-  Real free_motion_share = 0;   ///< over the farthest prescribed displacement, or over the mean radius where there is none
-  bool dynamic = false;         ///< nothing is prescribed, or it flew from the start: quasi-static limits do not apply
+  Real free_motion_share = 0;   ///< over the farthest prescribed displacement till then, or over the mean radius where there is none
+  Real lost_at_breaks = 0;      ///< energy that breaks lost by the size of the step, over the largest energy brought
+  bool dynamic = false;         ///< the deck prescribes nothing, or gives velocities: quasi-static limits do not apply
+  bool unseen = false;          ///< no look found it loaded before something broke or the end
   bool idle = false;            ///< no energy was brought
 };
 
 /// What the figures amount to.
 struct QualityVerdict {
-  std::string word;  ///< good, fair, poor; dynamic where only the balance counts; idle
+  std::string word;  ///< good, fair, poor; dynamic where only the balance counts; not judged where there was nothing to see; idle
   std::vector<std::string> remarks;
 };
 
@@ -45,9 +47,11 @@ namespace quality_limits {
 inline constexpr Real residual = 1e-3, residual_poor = 2e-2;
 /// Quasi-static: explicit codes commonly ask for 5 to 10 %; a strength that is to be right within a percent asks for 1 % while nothing breaks.
 inline constexpr Real kinetic = 0.01, kinetic_cracking = 0.05, kinetic_poor = 0.1;
+/// What the size of the step takes from the motion that breaks set free is like a damping: as much as may fly while it cracks.
+inline constexpr Real lost_at_breaks = kinetic_cracking, lost_at_breaks_poor = 0.5;
 /// Forces at both ends tell one and the same load.
 inline constexpr Real imbalance = 0.02, imbalance_cracking = 0.05, imbalance_poor = 0.1;
-/// Much of both says that waves are looked at, and no slow test.
+/// Much of both looks like waves.
 inline constexpr Real kinetic_waves = 0.2, imbalance_waves = 0.3;
 /// A free motion that is a small part of the prescribed one changes little.
 inline constexpr Real free_motion = 0.05, free_motion_poor = 0.5;
@@ -72,6 +76,7 @@ class WorstLoaded {
     }
   }
   Real worst() const { return *std::max_element(worst_.begin(), worst_.end()); }
+  bool none() const { return none_ != 0; }  ///< no look was at anything stored
   template <class F>
   void each(const std::string& name, const F& f) {
     f(name + ".none", none_), f(name + ".top", top_);
@@ -87,50 +92,68 @@ class WorstLoaded {
 QualityVerdict judged(const QualityFigures& figures);
 nlohmann::ordered_json quality_json(const QualityFigures& figures);
 
-/// Gathers them, at looks every so many steps. Once what had broken carries less than a tenth of the largest load, the test is over: pieces that
-/// swing tell nothing of it. A look counts only when the next one finds that it was not over yet.
+/// Gathers them, at looks every so many steps and in the step of the first break. Once what had broken carries, on the mean over the steps
+/// from one look to the next, less than a tenth of the largest load, the test is over: pieces that swing pull and push by turns, and tell
+/// nothing of it. It goes on when it is loaded anew: when a tenth of the largest stored energy has been brought. A look after the first break
+/// counts only when the next one finds that it was not over yet.
 class Quality {
  public:
-  void look(const QualityLook& seen) {
-    if (over_ != 0) return;
-    settle();
-    stored_ = seen.stored, kinetic_ = seen.kinetic, load_ = seen.load, imbalance_ = seen.imbalance, broken_ = seen.broken ? 1 : 0, waits_ = 1;
+  void look(const QualityLook& seen);
+  /// Makes room for so many prescribed forces.
+  void follow(std::size_t forces) { sums_.resize(std::max(forces, sums_.size()), 0); }
+  /// At every step: force(k) of `count` prescribed ones [N].
+  template <class Force>
+  void note_load(std::size_t count, const Force& force, bool broken) {
+    for (std::size_t k = 0; k < count; ++k) {
+      largest_load_ = std::max(largest_load_, std::abs(force(k)));
+      if (broken) sums_[k] += force(k);
+    }
+    if (broken) ++steps_;
   }
-  /// At every step: the largest force of what is prescribed.
-  void note_load(Real load, bool broken) {
-    largest_load_ = std::max(largest_load_, load);
-    if (broken && load < 0.1 * largest_load_) over_ = 1, waits_ = 0;
+  /// At the start of a stage: what was given to fly [J]. Forces are others from now on.
+  void note_start(Real kinetic) {
+    flown_ = std::max(flown_, kinetic);
+    forget_load();
   }
-  /// At the start of a stage: what flies then, of all energies so far [J].
-  void note_start(Real kinetic) { flown_ = std::max(flown_, kinetic); }
-  void note_free_motion(Real metres, Real over) {
-    free_motion_ = std::max(free_motion_, metres);
-    free_share_ = over > 0 ? std::max(free_share_, metres / over) : free_share_;
+  /// How far what nothing holds has moved, while what is prescribed has moved as far as `prescribed` [m].
+  void note_free_motion(Real moved, Real prescribed) {
+    free_motion_ = std::max(free_motion_, moved);
+    prescribed_ = std::max(prescribed_, prescribed);
   }
 
   /// Fills in what was gathered here.
-  void tell(QualityFigures& figures) const;
+  void tell(QualityFigures& figures, Real mean_radius) const;
   Real flown() const { return flown_; }
 
   /// What is to be kept over a restart: f(name, number).
   template <class F>
   void each(const F& f) {
-    f("stored", stored_), f("kinetic", kinetic_), f("load", load_), f("imbalance", imbalance_), f("broken", broken_), f("waits", waits_), f("over", over_);
+    f("stored", stored_), f("kinetic", kinetic_), f("load", load_), f("imbalance", imbalance_), f("waits", waits_);
+    f("over", over_), f("slack", slack_), f("lowest-energy", lowest_energy_), f("steps", steps_);
+    for (std::size_t k = 0; k < sums_.size(); ++k) f("sum." + std::to_string(k), sums_[k]);
     f("largest-load", largest_load_), f("sound-load", sound_load_);
     sound_kinetic_.each("sound-kinetic", f), sound_imbalance_.each("sound-imbalance", f);
     f("cracking-kinetic", cracking_kinetic_), f("cracking-imbalance", cracking_imbalance_);
-    f("largest-stored", largest_stored_), f("free-motion", free_motion_), f("free-share", free_share_), f("flown", flown_);
+    f("largest-stored", largest_stored_), f("free-motion", free_motion_), f("prescribed", prescribed_), f("flown", flown_);
   }
 
  private:
+  void look_sound(const QualityLook& seen);
+  void heed_load(const QualityLook& seen);
   void settle();
+  Real mean_load() const;
+  void forget_load() { std::fill(sums_.begin(), sums_.end(), 0), steps_ = 0; }
 
-  Real stored_ = 0, kinetic_ = 0, load_ = 0, imbalance_ = 0, broken_ = 0, waits_ = 0;  // the last look, while it waits
-  Real over_ = 0, largest_load_ = 0, largest_stored_ = 0;
+  Real stored_ = 0, kinetic_ = 0, load_ = 0, imbalance_ = 0, waits_ = 0;  // the last look that may count, while it waits
+  Real over_ = 0, slack_ = 0;                                            // the test is over; the last look was at a moment of little load
+  Real lowest_energy_ = 0;                                               // of the looks since it is over, or of the last look [J]
+  std::vector<Real> sums_;                                               // of each prescribed force, over the steps since a look [N]
+  Real steps_ = 0;
+  Real largest_load_ = 0, largest_stored_ = 0;
   Real sound_load_ = 0;
   WorstLoaded sound_kinetic_, sound_imbalance_;  // ratios; sums of forces [N]
   Real cracking_kinetic_ = 0, cracking_imbalance_ = 0;
-  Real free_motion_ = 0, free_share_ = 0, flown_ = 0;
+  Real free_motion_ = 0, prescribed_ = 0, flown_ = 0;
 };
 
 }  // namespace beadwork

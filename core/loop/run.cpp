@@ -30,6 +30,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       if (std::none_of(figures_.largest_uses.begin(), figures_.largest_uses.end(), [&](const auto& known) { return known.first == failure; }))
         figures_.largest_uses.emplace_back(failure, LargestUse{});
   gather_constraints();
+  for (const auto& stage : constraints_) quality_.follow(stage.size());
   add_state_columns();
   bind_all();
 }
@@ -222,6 +223,7 @@ void Run::heed_events() {
     const auto events = blaming(*law, moment_, [&, law = law] { return law->events(); });
     if (events.empty()) continue;
     complete();
+    look_at_first_break();
     const Real shadow = stage().mover().shadow_energy();
     BreakLog& log = domain().breaks();
     const auto x = domain().elements().column("position").view<Vec3>();
@@ -252,6 +254,7 @@ void Run::break_bonds() {
   }
   if (verdicts.empty()) return;
   complete();  // with the forces of the bonds that break
+  look_at_first_break();
   const Real shadow = stage().mover().shadow_energy();
   std::set<BondTable*> touched;
   const auto x = domain().elements().column("position").view<Vec3>();

@@ -158,6 +158,9 @@ class Run final : private Workings, private Sight {
   Ledger::Verdict look_at_balance();
   void find_free_motions();
   void look_at_quality(const EnergySums& sums);
+  void look_at_first_break();
+  bool prescribes() const;
+  Real farthest_prescribed() const;
   QualityFigures quality() const;
   Real round_off() const;
 

@@ -101,8 +101,9 @@ void Run::release(const Stage& next) {
 void Run::count_brought() {
   EnergySums sums;
   energies(sums);
-  initial_energy_ += sums.beyond_work() - left_at_stage_end_;
-  quality_.note_start(sums.in_motion);
+  const Real came = sums.beyond_work() - left_at_stage_end_;
+  initial_energy_ += came;
+  quality_.note_start(std::min(sums.in_motion, came));  // what flies on from the stage before was not given
   note_work();
 }
 
@@ -111,7 +112,8 @@ void Run::note_work() {
   for (const auto& stage : constraints_)
     for (const Constraint& c : stage) work += c.work;
   ledger_.note_work(work, initial_energy_);
-  quality_.note_load(largest_force(constraints()), !domain().breaks().breaks.empty());
+  const std::vector<Constraint>& held = constraints();
+  quality_.note_load(held.size(), [&](std::size_t k) { return held[k].axis < 3 ? held[k].reaction : 0; }, !domain().breaks().breaks.empty());
 }
 
 Ledger::Verdict Run::look_at_balance() {
@@ -146,7 +148,18 @@ void Run::find_free_motions() {
   for (const std::string& line : free_.words()) options_.say(line);
 }
 
+// In the step of the first break, with what breaks in it: all may be over before the next look is due.
+void Run::look_at_first_break() {
+  if (!domain().breaks().breaks.empty()) return;
+  complete();
+  EnergySums sums;
+  energies(sums);
+  look_at_quality(sums);
+}
+
+// Where some stages prescribe a motion, one that prescribes none is no part of a slow test.
 void Run::look_at_quality(const EnergySums& sums) {
+  if (constraints().empty() && prescribes()) return;
   const auto& breaks = domain().breaks().breaks;
   const bool pushed = std::any_of(stage().loads.begin(), stage().loads.end(), [](const Load* load) { return pushes(*load); });
   quality_.look({.stored = sums.in_bonds,
@@ -154,20 +167,34 @@ void Run::look_at_quality(const EnergySums& sums) {
                  .load = largest_force(constraints()),
                  .imbalance = unbalanced_force(domain(), constraints(), pushed),
                  .broken = !breaks.empty()});
-  if (!free_.any() || (!breaks.empty() && breaks.back().step > moment_.stage_step)) return;
-  const Real prescribed = driven_displacement(constraints(), "", moment_.stage_start, moment_.time);
-  const auto radius = domain().elements().column("radius").view<Real>();
-  quality_.note_free_motion(free_.moved(domain()),
-                            prescribed > 0 ? prescribed : fixed_sum(domain().size(), [&](Index i) { return radius[i]; }) / static_cast<Real>(domain().size()));
+  if (free_.any() && (breaks.empty() || breaks.back().step <= moment_.stage_step)) quality_.note_free_motion(free_.moved(domain()), farthest_prescribed());
+}
+
+// In whichever stage.
+bool Run::prescribes() const {
+  return std::any_of(constraints_.begin(), constraints_.end(), [](const auto& stage) { return !stage.empty(); });
+}
+
+// So far, in whichever stage.
+Real Run::farthest_prescribed() const {
+  Real farthest = driven_displacement(constraints(), "", moment_.stage_start, moment_.time);
+  for (const auto& stage : peaks_)
+    for (const Peak& peak : stage) farthest = std::max(farthest, peak.displacement);
+  return farthest;
 }
 
 QualityFigures Run::quality() const {
   QualityFigures figures;
   const Real brought = ledger_.brought();
   figures.idle = !(brought > round_off());
-  if (!figures.idle) figures.residual = ledger_.deviation() / brought;
-  quality_.tell(figures);
-  figures.dynamic = constraints().empty() || quality_.flown() > 0.1 * brought;
+  if (!figures.idle) {
+    figures.residual = ledger_.deviation() / brought;
+    figures.lost_at_breaks = ledger_.lost_at_breaks() / brought;
+  }
+  const Domain& domain = *scene_.domain;
+  const auto radius = domain.elements().column("radius").view<Real>();
+  quality_.tell(figures, domain.size() > 0 ? fixed_sum(domain.size(), [&](Index i) { return radius[i]; }) / static_cast<Real>(domain.size()) : 0);
+  figures.dynamic = !prescribes() || quality_.flown() > 0.1 * brought;
   return figures;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/failure.hpp"
@@ -185,7 +186,7 @@ void Run::load() {
   for (const auto& [curve, end] : ends.items()) curve_ends_[curve] = {end[0].get<std::uintmax_t>(), end[1].get<std::string>()};
   for (const auto& note : bounded_json(meta.texts.at("notes"))) figures_.notes.push_back(note.get<std::string>());
   frame_now_ = *FrameNow::of(meta.texts.at("frame"));
-  free_ = FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), domain().size()).value();
+  free_ = FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), domain()).value();
   restore_state();
   has_checkpoint_ = true;
   saved_step_ = meta.step;
@@ -203,7 +204,7 @@ void Run::check_restored(const CheckpointMeta& meta) const {
   const auto stages = scene_.stages.size();
   refuse_if(static_cast<std::size_t>(meta.stage) >= stages, fmt::format("it is of stage {}, the deck has {}", meta.stage + 1, stages));
   refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(), "its report on the packing is not whole");
-  refuse_if(!meta.texts.contains("free-bodies") || !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), scene_.domain->size()),
+  refuse_if(!meta.texts.contains("free-bodies") || !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), *scene_.domain),
             "what it says of free bodies is not whole");
   const auto curves = meta.texts.contains("curves") ? bounded_json(meta.texts.at("curves")) : nlohmann::ordered_json();
   const auto is_end = [](const auto& end) { return end.is_array() && end.size() == 2 && end[0].is_number_unsigned() && end[1].is_string(); };
@@ -366,7 +367,8 @@ std::vector<const Column*> columns_of(const Table& table, const FramePlan& plan)
     else if (const Column* column = table.find(name))
       found.push_back(column);
   }
-  std::erase_if(found, [](const Column* column) { return column->field().name == "first" || column->field().name == "second" || column->field().name == "target"; });
+  constexpr std::string_view own[] = {"first", "second", "target", "free-start", "free-body"};
+  std::erase_if(found, [&](const Column* column) { return std::find(std::begin(own), std::end(own), column->field().name) != std::end(own); });
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace beadwork {
@@ -14,8 +15,19 @@ using ::testing::IsEmpty;
 
 QualityFigures told(const Quality& quality) {
   QualityFigures figures;
-  quality.tell(figures);
+  quality.tell(figures, 1);
   return figures;
+}
+
+void note(Quality& quality, Real load, bool broken, int steps = 1) {
+  quality.follow(1);
+  for (int k = 0; k < steps; ++k) quality.note_load(1, [load](std::size_t) { return load; }, broken);
+}
+
+// Full swings about nothing.
+void note_swings(Quality& quality, Real load) {
+  quality.follow(1);
+  for (int k = 0; k < 1000; ++k) quality.note_load(1, [&](std::size_t) { return load * std::sin(0.1 * k); }, true);
 }
 
 TEST(Quality, of_what_is_sound_counts_from_when_it_is_loaded) {
@@ -45,7 +57,7 @@ TEST(WorstLoaded, forgets_what_was_small_once_more_is_stored) {
 
 TEST(Quality, compares_moments_while_it_cracks) {
   Quality quality;
-  quality.note_load(200, false);
+  note(quality, 200, false);
   quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
   quality.look({.stored = 300, .kinetic = 6, .load = 150, .imbalance = 3, .broken = true});
   quality.look({.stored = 39, .kinetic = 39, .load = 150, .imbalance = 90, .broken = true});  // hardly loaded any more
@@ -56,29 +68,65 @@ TEST(Quality, compares_moments_while_it_cracks) {
 
 TEST(Quality, leaves_out_what_comes_when_the_specimen_has_failed_and_the_look_just_before) {
   Quality quality;
-  quality.note_load(200, false);
+  note(quality, 200, false);
   quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
   quality.look({.stored = 200, .kinetic = 150, .load = 200, .imbalance = 100, .broken = true});  // a wave on its way to the grips
-  quality.note_load(19, true);
-  quality.look({.stored = 200, .kinetic = 150, .load = 100, .imbalance = 100, .broken = true});
-  quality.note_load(100, true);
+  for (int k = 0; k < 3; ++k) {
+    note_swings(quality, 200);
+    quality.look({.stored = 200, .kinetic = 150, .load = 100, .imbalance = 100, .broken = true});
+  }
   EXPECT_EQ(told(quality).kinetic_cracking, 0);
   EXPECT_DOUBLE_EQ(told(quality).kinetic, 2.0 / 400);
 }
 
+TEST(Quality, leaves_out_what_was_seen_last_where_the_run_ends_with_the_load) {
+  Quality quality;
+  note(quality, 200, false);
+  quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
+  note(quality, 150, true, 100);
+  quality.look({.stored = 200, .kinetic = 150, .load = 200, .imbalance = 100, .broken = true});
+  note(quality, 2, true, 10);
+  quality.look({.stored = 200, .kinetic = 150, .load = 2, .imbalance = 2, .broken = true});
+  EXPECT_EQ(told(quality).kinetic_cracking, 0);
+}
+
+TEST(Quality, goes_on_after_a_moment_without_load) {
+  Quality quality;
+  note(quality, 200, false);
+  quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
+  note(quality, 200, true, 499);
+  note(quality, 0, true);
+  note(quality, 200, true, 500);
+  quality.look({.stored = 300, .kinetic = 150, .load = 200, .imbalance = 100, .broken = true});
+  EXPECT_DOUBLE_EQ(told(quality).kinetic_cracking, 0.5);
+}
+
+TEST(Quality, goes_on_once_it_is_loaded_anew) {
+  Quality quality;
+  note(quality, 200, false);
+  quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
+  note(quality, 5, true, 1000);
+  quality.look({.stored = 2, .kinetic = 0, .load = 5, .imbalance = 0, .broken = true});
+  note(quality, 300, true, 40);  // at once, and hard
+  quality.look({.stored = 100, .kinetic = 110, .load = 300, .imbalance = 100, .broken = true});
+  EXPECT_DOUBLE_EQ(told(quality).kinetic_cracking, 1.1);
+}
+
 TEST(Quality, goes_on_where_nothing_broke_and_the_load_is_taken_off) {
   Quality quality;
-  quality.note_load(200, false);
-  quality.note_load(0, false);
+  note(quality, 200, false);
+  note(quality, 0, false, 1000);
   quality.look({.stored = 400, .kinetic = 2, .load = 0, .imbalance = 0, .broken = false});
   EXPECT_DOUBLE_EQ(told(quality).kinetic, 2.0 / 400);
 }
 
 TEST(Quality, is_the_same_after_a_restart) {
   Quality before, after;
-  before.note_load(200, false);
+  after.follow(1);
+  note(before, 200, false);
   before.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
   before.look({.stored = 300, .kinetic = 6, .load = 150, .imbalance = 3, .broken = true});
+  note(before, 15, true, 60);
   before.note_free_motion(2, 8);
   std::vector<Real> kept;
   before.each([&](const std::string&, Real& number) { kept.push_back(number); });
@@ -86,6 +134,36 @@ TEST(Quality, is_the_same_after_a_restart) {
   after.each([&](const std::string&, Real& number) { number = *next++; });
   EXPECT_EQ(quality_json(told(after)).dump(), quality_json(told(before)).dump());
   EXPECT_EQ(told(after).free_motion_share, 0.25);
+  for (Quality* each : {&before, &after}) {
+    note(*each, 15, true, 40);
+    each->look({.stored = 300, .kinetic = 9, .load = 150, .imbalance = 3, .broken = true});
+    EXPECT_EQ(told(*each).kinetic_cracking, 0) << "its mean load is too little";
+  }
+}
+
+TEST(Quality, compares_a_free_motion_with_the_farthest_prescribed_one) {
+  Quality quality;
+  quality.note_free_motion(0, 0);
+  quality.note_free_motion(2, 50);
+  quality.note_free_motion(3, 1e-6);  // back again
+  EXPECT_DOUBLE_EQ(told(quality).free_motion_share, 3.0 / 50);
+  Quality pushed;
+  pushed.note_free_motion(3, 0);
+  EXPECT_DOUBLE_EQ(told(pushed).free_motion_share, 3) << "of the mean radius, where nothing is prescribed to move";
+}
+
+TEST(Quality, of_what_no_look_saw_is_not_judged) {
+  Quality quality;
+  note(quality, 200, false);
+  quality.look({.stored = 0, .kinetic = 0, .load = 0, .imbalance = 0, .broken = false});
+  note(quality, 200, true, 1000);
+  quality.look({.stored = 300, .kinetic = 6, .load = 150, .imbalance = 3, .broken = true});
+  EXPECT_TRUE(told(quality).unseen);
+  EXPECT_EQ(judged(told(quality)).word, "not judged");
+  EXPECT_THAT(judged(told(quality)).remarks, ElementsAre(HasSubstr("whether it was slow enough is not known")));
+  EXPECT_EQ(judged({.residual = 0.01, .unseen = true}).word, "not judged");
+  EXPECT_EQ(judged({.kinetic_cracking = 0.9, .unseen = true}).word, "poor");
+  EXPECT_EQ(judged({.dynamic = true, .unseen = true}).word, "dynamic");
 }
 
 TEST(Quality, is_good_only_when_every_figure_is) {
@@ -106,9 +184,12 @@ TEST(Quality, of_a_dynamic_scene_is_its_balance) {
   EXPECT_THAT(judged(flight).remarks, IsEmpty());
   flight.residual = 0.03;
   EXPECT_EQ(judged(flight).word, "poor");
-  EXPECT_EQ(judged({.kinetic = 0.9, .imbalance = 0.8}).word, "dynamic");
-  EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks, ElementsAre(HasSubstr("90 %")));
-  EXPECT_EQ(judged({.kinetic = 0.9}).word, "poor") << "it moves, and not in waves between what holds it";
+}
+
+TEST(Quality, of_a_worse_run_is_no_better) {
+  EXPECT_EQ(judged({.kinetic = 0.9}).word, "poor");
+  EXPECT_EQ(judged({.kinetic = 0.9, .imbalance = 0.8}).word, "poor");
+  EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks, ElementsAre(HasSubstr("90 %"), HasSubstr("80 %"), HasSubstr("looks like waves")));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/loop/json_text.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
 
@@ -56,13 +57,14 @@ std::string quality(const Run& run) {
     for (const Json& entry : *entries) {
       std::string said = entry.is_string() ? entry.get<std::string>() : "";
       if (entry.is_object() && entry.contains("elements") && entry.contains("free_to") && entry["free_to"].is_array()) {
-        said = "a body of " + entry["elements"].dump() + " elements was free to";
-        for (const Json& motion : entry["free_to"]) said += (said.ends_with("to") ? " " : ", ") + (motion.is_string() ? motion.get<std::string>() : motion.dump());
+        said = "a body of " + json_text(entry["elements"]) + " elements was free to";
+        for (const Json& motion : entry["free_to"]) said += (said.ends_with("to") ? " " : ", ") + (motion.is_string() ? motion.get<std::string>() : json_text(motion));
       }
       if (!said.empty()) remarks += "<li>" + escaped(said) + "</li>";
     }
   }
   const std::string rows = row(*found, "residual_over_work", "residual of the energy balance over the largest work") +
+                           row(*found, "lost_at_breaks_over_work", "energy that breaks lost by the size of the step, over the largest work") +
                            row(*found, "kinetic_over_stored", "kinetic over stored energy, before anything breaks") +
                            row(*found, "kinetic_over_stored_cracking", "kinetic over stored energy, while it cracks") +
                            row(*found, "reactions_imbalance", "prescribed forces out of balance, before anything breaks") +
