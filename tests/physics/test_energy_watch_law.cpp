@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/deck_run.hpp"
 
 namespace beadwork {
 namespace {
 
+using std::numbers::pi;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
