@@ -154,10 +154,13 @@ std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attri
   ends.push_back(attribute.value.size());
   std::vector<std::vector<double>> rows;
   bool all_right = true;
-  for (std::size_t begin = 0; const std::size_t end : ends) {
+  Location here = attribute.value_at;  // from row to row: a table may be long
+  for (std::size_t begin = 0, passed = 0; const std::size_t end : ends) {
     const std::string text = attribute.value.substr(begin, end - begin);
     const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-    const Attribute row{attribute.name, std::string(trim(text)), attribute.name_at, attribute.place(begin + first)};
+    here = locate(here, begin + first - passed);
+    passed = begin + first;
+    const Attribute row{attribute.name, std::string(trim(text)), attribute.name_at, here};
     const Refusal refuse(row, "rows such as " + quoted(join(example, " ")), scope, complaints);
     auto values = read_values(row, in_turn, scope, complaints, refuse);
     const bool fits = values && values->size() == units.size();

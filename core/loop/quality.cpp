@@ -99,11 +99,11 @@ void Quality::tell(QualityFigures& figures, Real mean_radius) const {
 
 QualityVerdict judged(const QualityFigures& f) {
   namespace limit = quality_limits;
-  if (f.idle) return {"idle", {"no energy was brought to it: nothing to judge"}};
+  if (f.idle && !f.failed) return {"idle", {"no energy was brought to it: nothing to judge"}};
   Judge judge;
   judge.hold(f.residual, limit::residual, limit::residual_poor, "the residual of the energy balance over the largest work");
   judge.hold(f.lost_at_breaks, limit::lost_at_breaks, limit::lost_at_breaks_poor, "what breaks lost by the size of the step (lower 'safety') over the largest work");
-  if (f.dynamic) return judge.verdict("dynamic");
+  if (f.dynamic && !f.failed) return judge.verdict("dynamic");
   judge.hold(f.kinetic, limit::kinetic, limit::kinetic_poor, "the largest kinetic over stored energy, before anything breaks,");
   judge.hold(f.kinetic_cracking, limit::kinetic_cracking, 5 * limit::kinetic_poor, "the largest kinetic over stored energy while it cracks");
   judge.hold(f.imbalance, limit::imbalance, limit::imbalance_poor, "the sum of the prescribed forces over the largest, before anything breaks,");
@@ -111,8 +111,8 @@ QualityVerdict judged(const QualityFigures& f) {
   judge.hold(f.free_motion_share, limit::free_motion, limit::free_motion_poor, fmt::format("a motion that nothing holds, {:.3g} m, over the prescribed one", f.free_motion));
   if (f.kinetic > limit::kinetic_waves && f.imbalance > limit::imbalance_waves)
     judge.remark("that much of both before anything breaks looks like waves: as a slow test it is none, as a test of waves it is to be judged by their theory");
-  if (!f.unseen) return judge.verdict("good");
-  judge.remark("no look found it loaded before something broke or the run ended: whether it was slow enough is not known");
+  if (!f.unseen && !f.failed) return judge.verdict("good");
+  judge.remark(f.failed ? "the run failed, and what came last was not looked at" : "no look found it loaded before something broke or the run ended: whether it was slow enough is not known");
   return judge.verdict_of_the_unseen();
 }
 

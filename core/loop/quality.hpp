@@ -34,6 +34,7 @@ struct QualityFigures {
   bool dynamic = false;         ///< the deck prescribes nothing, or gives velocities: quasi-static limits do not apply
   bool unseen = false;          ///< no look found it loaded before something broke or the end
   bool idle = false;            ///< no energy was brought
+  bool failed = false;          ///< the run was stopped by its physics, or by a plugin
 };
 
 /// What the figures amount to.

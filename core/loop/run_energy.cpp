@@ -194,6 +194,7 @@ QualityFigures Run::quality() const {
   const Domain& domain = *scene_.domain;
   const auto radius = domain.elements().column("radius").view<Real>();
   quality_.tell(figures, domain.size() > 0 ? fixed_sum(domain.size(), [&](Index i) { return radius[i]; }) / static_cast<Real>(domain.size()) : 0);
+  figures.failed = figures_.status == "failed";
   figures.dynamic = !prescribes() || quality_.flown() > 0.1 * brought;
   return figures;
 }

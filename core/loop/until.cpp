@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/text.hpp"
 #include "core/base/units.hpp"
@@ -112,20 +113,28 @@ std::string Until::Clause::si() const {
 
 namespace {
 
-// Of a condition on nothing but the displacement. A run sees some displacements only, and so do we: a condition that holds between two of
-// these thousands would be missed by most runs too.
-std::string why_no_displacement_meets(const Expression& condition, Real reach) {
-  constexpr std::size_t displacement = static_cast<std::size_t>(Mark::What::displacement);
-  constexpr int looks = 4096;
-  for (std::size_t v = 0; v < Mark::variables().size(); ++v)
-    if (v != displacement && condition.uses(v)) return "";
-  if (!std::isfinite(reach)) return "";
+// Sizes of the variable, from tiny to huge, of this sign, between these limits: whether one of them meets the condition.
+bool is_met(const Expression& condition, std::size_t variable, Real sign, Real from, Real to) {
   std::vector<Real> values(Mark::variables().size(), 0);
-  for (int k = 0; k <= looks; ++k) {
-    values[displacement] = reach * k / looks;
-    if (condition.evaluate(values) == 1) return "";
-  }
-  return fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most", format_quantity(reach, "m"));
+  const auto meets = [&](Real size) {
+    values[variable] = sign * size;
+    return size >= from && size <= to && condition.evaluate(values) == 1;
+  };
+  constexpr int parts = 4096;
+  for (int k = 0; std::isfinite(to) && k <= parts; ++k)
+    if (meets(from + (to - from) * k / parts)) return true;
+  bool any = meets(0);
+  for (Real size = 1e-30; size < 1e30 && !any; size *= 1.01) any = meets(size);
+  return any;
+}
+
+// A condition on this variable alone that is met only where the variable never gets. One that is met nowhere that we look is let be.
+bool is_out_of_reach(const Expression& condition, std::size_t variable, Real reach) {
+  for (std::size_t v = 0; v < Mark::variables().size(); ++v)
+    if (condition.uses(v) != (v == variable)) return false;
+  if (is_met(condition, variable, 1, 0, reach)) return false;
+  return is_met(condition, variable, -1, 0, std::numeric_limits<Real>::infinity()) ||
+         is_met(condition, variable, 1, std::nextafter(reach, std::numeric_limits<Real>::infinity()), std::numeric_limits<Real>::infinity());
 }
 
 }  // namespace
@@ -138,7 +147,13 @@ std::string Until::Clause::why_never(std::span<const Constraint> constraints) co
   if (what == What::condition) {
     const auto displacement = static_cast<std::size_t>(Mark::What::displacement);
     if (condition->uses(displacement) && !reach) return "waits for a displacement, but nothing in <load> is pulled";
-    if (condition->uses(displacement)) return why_no_displacement_meets(*condition, *reach);
+    for (const Mark::What never_negative : {Mark::What::time, Mark::What::steps, Mark::What::displacement}) {
+      const auto variable = static_cast<std::size_t>(never_negative);
+      const Real limit = variable == displacement ? reach.value_or(0) : std::numeric_limits<Real>::infinity();
+      if (!is_out_of_reach(*condition, variable, limit)) continue;
+      return std::isfinite(limit) ? fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most", format_quantity(limit, "m"))
+                                  : fmt::format("can never be met: the {} is never negative", Mark::variables()[variable].name);
+    }
     for (std::size_t v = 0; v < Mark::variables().size(); ++v)
       if (condition->uses(v)) return "";
     return fmt::format("wants a condition on time, step or displacement, \"{}\" never changes", text);

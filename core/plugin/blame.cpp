@@ -15,7 +15,7 @@ void blame(const std::string& whose) {
   } catch (const Fault&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw;
+    throw MachineFailure(whose + ": there is not enough memory for what it asks");
   } catch (const std::exception& error) {
     throw PhysicsFailure(whose + ": " + error.what());
   } catch (...) {

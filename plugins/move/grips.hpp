@@ -42,6 +42,8 @@ class Grips {
       if (sets_.back().size() < all.size())
         w.say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong to a small fragment, and are left out of its mean",
                                                    all.size() - sets_.back().size(), all.size(), c.set));
+      axes_.push_back(c.axis);
+      averages_.push_back(c.grip == Grip::mean);
       means_.push_back(0);
       weights_.push_back(c.axis < 3 ? weight(c.grip, sets_.back(), w.domain().elements().column("mass").view<Real>()) : 0);
       for (const Index row : sets_.back()) {
@@ -73,6 +75,22 @@ class Grips {
       set_rate(c, sets_[k], c.at(w.moment().time).velocity, of);
       c.work += (kinetic(sets_[k], of, c.axis % 3) - before) / beta;
     }
+  }
+
+  /// What a mean keeps from moving its set: of sum |F|^2/m the part of the set's mean, (sum F/m)^2 / sum 1/m, over all means [N^2/kg].
+  Real held_by_means(const Gripped& places, const Gripped& turns) const {
+    Real all = 0;
+    for (std::size_t k = 0; k < sets_.size(); ++k) {
+      const Gripped& of = axes_[k] < 3 ? places : turns;
+      if (!averages_[k] || !of.load || sets_[k].empty()) continue;
+      Real pull = 0, weight = 0;
+      for (const Index row : sets_[k]) {
+        pull += of.load.at(row, axes_[k] % 3) / of.inertia[row];
+        weight += 1 / of.inertia[row];
+      }
+      all += pull * pull / weight;
+    }
+    return all;
   }
 
   /// Rows of which something prescribes an axis, ascending.
@@ -246,6 +264,8 @@ class Grips {
   }
 
   std::vector<Set> sets_;
+  std::vector<int> axes_;
+  std::vector<char> averages_;
   std::vector<Index> rows_;
   std::vector<Real> means_, weights_;
   std::vector<std::vector<Real>> places_;

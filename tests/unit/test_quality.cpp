@@ -192,5 +192,23 @@ TEST(Quality, of_a_worse_run_is_no_better) {
   EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks, ElementsAre(HasSubstr("90 %"), HasSubstr("80 %"), HasSubstr("looks like waves")));
 }
 
+TEST(Quality, of_a_run_that_failed_is_never_good) {
+  QualityFigures figures;
+  figures.failed = true;
+  EXPECT_EQ(judged(figures).word, "not judged");
+  figures.dynamic = true;
+  EXPECT_EQ(judged(figures).word, "not judged");
+  figures.residual = 1;
+  EXPECT_EQ(judged(figures).word, "poor");
+}
+
+TEST(Quality, tells_what_breaks_lost_by_the_size_of_the_step) {
+  QualityFigures figures;
+  figures.lost_at_breaks = 0.04;
+  EXPECT_EQ(judged(figures).word, "good");
+  figures.lost_at_breaks = 0.06;
+  EXPECT_EQ(judged(figures).word, "fair");
+}
+
 }  // namespace
 }  // namespace beadwork
