@@ -34,6 +34,16 @@ bool turns_the_direction(char32_t c) {
   return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }
 
+/// What Unicode lists as Default_Ignorable_Code_Point (DerivedCoreProperties, version 15): shown as nothing where it is not known. Also the
+/// blank pattern of Braille, which is a character like any other and shows nothing.
+bool is_shown_as_nothing(char32_t c) {
+  constexpr struct {
+    char32_t first, last;
+  } ranges[] = {{0xAD, 0xAD},     {0x034F, 0x034F}, {0x061C, 0x061C}, {0x115F, 0x1160}, {0x17B4, 0x17B5},   {0x180B, 0x180F},   {0x200B, 0x200F},  {0x202A, 0x202E}, {0x2060, 0x206F},
+                {0x2800, 0x2800}, {0x3164, 0x3164}, {0xFE00, 0xFE0F}, {0xFEFF, 0xFEFF}, {0xFFA0, 0xFFA0},   {0xFFF0, 0xFFF8},   {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}};
+  return std::any_of(std::begin(ranges), std::end(ranges), [&](const auto& range) { return c >= range.first && c <= range.last; });
+}
+
 /// What an invisible character is, or null.
 const char* invisible(char32_t c) {
   if (is_control(c)) return "a control character";
@@ -43,7 +53,7 @@ const char* invisible(char32_t c) {
   if (c == 0x200C || c == 0x200D) return "a zero-width joiner";
   if (c == 0x2060) return "a word joiner";
   if (c == 0xFEFF) return "a byte order mark, which may stand only at the beginning";
-  if (c == 0x034F || c == 0x180E || (c >= 0x2061 && c <= 0x2064) || (c >= 0xFE00 && c <= 0xFE0F)) return "an invisible character";
+  if (is_shown_as_nothing(c)) return "an invisible character";
   return nullptr;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace beadwork {
@@ -39,6 +40,7 @@ class Judge {
 
 void Quality::look(const QualityLook& seen) {
   if (!seen.broken) return look_sound(seen);
+  at_rest_ = 0;
   heed_load(seen);
   if (over_ != 0) {
     waits_ = 0;
@@ -56,6 +58,7 @@ void Quality::look_sound(const QualityLook& seen) {
   sound_load_ = std::max(sound_load_, seen.load);
   sound_kinetic_.note(seen.stored, share(seen.kinetic, seen.stored));
   sound_imbalance_.note(seen.stored, seen.imbalance);
+  at_rest_ = seen.stored > 0 && seen.kinetic <= quality_limits::kinetic * seen.stored && seen.imbalance <= quality_limits::imbalance * seen.load ? 1 : 0;
 }
 
 // A single moment of little load ends nothing, and what swings does not begin anew by its swings: they bring no energy.
@@ -88,6 +91,7 @@ void Quality::settle() {
 void Quality::tell(QualityFigures& figures, Real mean_radius) const {
   Quality whole = *this;
   if (slack_ == 0) whole.settle();
+  figures.at_rest = at_rest_ != 0;
   figures.unseen = sound_kinetic_.none();
   figures.kinetic = sound_kinetic_.worst();
   figures.imbalance = share(sound_imbalance_.worst(), sound_load_);
@@ -104,12 +108,16 @@ QualityVerdict judged(const QualityFigures& f) {
   judge.hold(f.residual, limit::residual, limit::residual_poor, "the residual of the energy balance over the largest work");
   judge.hold(f.lost_at_breaks, limit::lost_at_breaks, limit::lost_at_breaks_poor, "what breaks lost by the size of the step (lower 'safety') over the largest work");
   if (f.dynamic && !f.failed) return judge.verdict("dynamic");
-  judge.hold(f.kinetic, limit::kinetic, limit::kinetic_poor, "the largest kinetic over stored energy, before anything breaks,");
+  // What is elastic forgets the way to its equilibrium.
+  const Real far = std::numeric_limits<Real>::infinity();
+  judge.hold(f.kinetic, limit::kinetic, f.at_rest ? far : limit::kinetic_poor, "the largest kinetic over stored energy, before anything breaks,");
   judge.hold(f.kinetic_cracking, limit::kinetic_cracking, 5 * limit::kinetic_poor, "the largest kinetic over stored energy while it cracks");
-  judge.hold(f.imbalance, limit::imbalance, limit::imbalance_poor, "the sum of the prescribed forces over the largest, before anything breaks,");
+  judge.hold(f.imbalance, limit::imbalance, f.at_rest ? far : limit::imbalance_poor, "the sum of the prescribed forces over the largest, before anything breaks,");
   judge.hold(f.imbalance_cracking, limit::imbalance_cracking, 5 * limit::imbalance_poor, "the sum of the prescribed forces over the largest while it cracks");
   judge.hold(f.free_motion_share, limit::free_motion, limit::free_motion_poor, fmt::format("a motion that nothing holds, {:.3g} m, over the prescribed one", f.free_motion));
-  if (f.kinetic > limit::kinetic_waves && f.imbalance > limit::imbalance_waves)
+  if (f.at_rest && (f.kinetic > limit::kinetic || f.imbalance > limit::imbalance))
+    judge.remark("it came to rest: what is read at the end is in equilibrium, what is read on the way is not");
+  else if (f.kinetic > limit::kinetic_waves && f.imbalance > limit::imbalance_waves)
     judge.remark("that much of both before anything breaks looks like waves: as a slow test it is none, as a test of waves it is to be judged by their theory");
   if (!f.unseen && !f.failed) return judge.verdict("good");
   judge.remark(f.failed ? "the run failed, and what came last was not looked at" : "no look found it loaded before something broke or the run ended: whether it was slow enough is not known");

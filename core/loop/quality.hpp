@@ -32,6 +32,7 @@ struct QualityFigures {
   Real free_motion_share = 0;   ///< over the farthest prescribed displacement till then, or over the mean radius where there is none
   Real lost_at_breaks = 0;      ///< energy that breaks lost by the size of the step, over the largest energy brought
   bool dynamic = false;         ///< the deck prescribes nothing, or gives velocities: quasi-static limits do not apply
+  bool at_rest = false;         ///< nothing has broken, and the last look found it in equilibrium
   bool unseen = false;          ///< no look found it loaded before something broke or the end
   bool idle = false;            ///< no energy was brought
   bool failed = false;          ///< the run was stopped by its physics, or by a plugin
@@ -135,7 +136,7 @@ class Quality {
     f("largest-load", largest_load_), f("sound-load", sound_load_);
     sound_kinetic_.each("sound-kinetic", f), sound_imbalance_.each("sound-imbalance", f);
     f("cracking-kinetic", cracking_kinetic_), f("cracking-imbalance", cracking_imbalance_);
-    f("largest-stored", largest_stored_), f("free-motion", free_motion_), f("prescribed", prescribed_), f("flown", flown_);
+    f("largest-stored", largest_stored_), f("free-motion", free_motion_), f("prescribed", prescribed_), f("flown", flown_), f("at-rest", at_rest_);
   }
 
  private:
@@ -154,7 +155,7 @@ class Quality {
   Real sound_load_ = 0;
   WorstLoaded sound_kinetic_, sound_imbalance_;  // ratios; sums of forces [N]
   Real cracking_kinetic_ = 0, cracking_imbalance_ = 0;
-  Real free_motion_ = 0, prescribed_ = 0, flown_ = 0;
+  Real free_motion_ = 0, prescribed_ = 0, flown_ = 0, at_rest_ = 0;
 };
 
 }  // namespace beadwork

@@ -46,8 +46,9 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
       const fs::path real = widest_variant(canonical_path(path.string()), sets);
       if (std::find(opened.begin(), opened.end(), real) != opened.end()) continue;
       opened.push_back(real);
-      Library library = open_library(real);
-      if (&place != &places.back()) library.named = fs::absolute(path).lexically_normal();
+      const bool is_own = &place == &places.back();
+      Library library = open_library(real, is_own ? Trust::own : Trust::none);
+      if (!is_own) library.named = fs::absolute(path).lexically_normal();
       catalogue.add(std::move(library));
       for (const std::string& set : sets)
         if (real.parent_path().filename() == set) catalogue.instructions_ = set;

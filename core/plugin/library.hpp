@@ -31,8 +31,11 @@ std::vector<std::string> instruction_sets();
 /// The variant of a library for the widest of `sets` that there is: folder/avx2/name beside folder/name; or itself.
 std::filesystem::path widest_variant(const std::filesystem::path& path, const std::vector<std::string>& sets);
 
+/// The program's own libraries are opened at once; any other first in a child, since a damaged file can end the process that loads it.
+enum class Trust { none, own };
+
 /// Throws LibraryFailure if it cannot be opened, is no plugin library, or was built for another kernel (then with both
 /// stamps).
-Library open_library(const std::filesystem::path& path);
+Library open_library(const std::filesystem::path& path, Trust trust = Trust::none);
 
 }  // namespace beadwork

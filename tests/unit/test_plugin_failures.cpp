@@ -258,6 +258,12 @@ TEST(PluginLibrary, that_is_cut_off_or_damaged_is_refused_before_it_is_opened) {
     testing::write_text(library, odd);
     EXPECT_NE(why_no_shared_library(library), "") << at;
   }
+  for (const std::size_t from : {std::size_t{65536}, whole.size() / 2}) {  // a write that was lost: its tables are whole
+    std::string holed = whole;
+    std::fill(holed.begin() + static_cast<std::ptrdiff_t>(from), holed.end() - 65536, '\0');
+    testing::write_text(library, holed);
+    EXPECT_EQ(testing::message_of<LibraryFailure>([&] { open_library(library); }).find("cannot open plugin library"), 0u) << from;
+  }
   EXPECT_NE(why_no_shared_library(scratch.path()), "");
   EXPECT_EQ(why_no_shared_library(scratch / "nowhere.so"), "there is no such file");
 }

@@ -192,6 +192,16 @@ TEST(Quality, of_a_worse_run_is_no_better) {
   EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks, ElementsAre(HasSubstr("90 %"), HasSubstr("80 %"), HasSubstr("looks like waves")));
 }
 
+TEST(Quality, of_what_rang_and_came_to_rest_is_fair_unless_something_broke) {
+  Quality quality;
+  quality.look({.stored = 100, .kinetic = 50, .load = 10, .imbalance = 9});
+  EXPECT_EQ(judged(told(quality)).word, "poor");
+  quality.look({.stored = 100, .kinetic = 0.5, .load = 10, .imbalance = 0.1});
+  EXPECT_EQ(judged(told(quality)).word, "fair");
+  quality.look({.stored = 90, .kinetic = 0.5, .load = 10, .imbalance = 0.1, .broken = true});
+  EXPECT_EQ(judged(told(quality)).word, "poor");
+}
+
 TEST(Quality, of_a_run_that_failed_is_never_good) {
   QualityFigures figures;
   figures.failed = true;

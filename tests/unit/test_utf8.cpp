@@ -27,6 +27,7 @@ TEST(Utf8, what_nobody_sees_is_named) {
   EXPECT_EQ(first_invisible("ab\u200B")->words, "U+200B, a zero-width space");
   EXPECT_EQ(first_invisible("\u202E")->words, "U+202E, a mark that turns the direction of writing");
   EXPECT_EQ(first_invisible(std::string_view("\0", 1))->words, "U+0000, a control character");
+  for (const char* hidden : {"\u3164", "\u115F", "\uFFA0", "\u2800", "\U000E0020", "\U000E0100"}) EXPECT_TRUE(first_invisible(hidden)) << hidden;
   EXPECT_EQ(first_invisible("a\xFF")->words, "a byte that is no text in UTF-8");
 }
 
