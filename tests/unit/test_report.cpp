@@ -437,12 +437,12 @@ TEST_F(BatchReport, a_page_of_somebody_else_is_left_alone) {
 }
 
 TEST_F(Report, a_folder_that_is_no_run_is_refused) {
-  EXPECT_THROW(write_report(folder), MachineFailure);
+  EXPECT_THROW(write_report(folder), DeckFailure);
   fs::create_directories(folder);
   try {
     write_report(folder);
     FAIL();
-  } catch (const MachineFailure& failure) {
+  } catch (const DeckFailure& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("is not the folder of a run"));
   }
 }

@@ -200,11 +200,11 @@ Run open_curves(const fs::path& folder) {
   if (error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels)
     throw DeckFailure("cannot use '" + folder.string() + "': " + error.message());
   if (!there)
-    throw MachineFailure("there is no folder '" + folder.string() + "' to report on");
+    throw DeckFailure("there is no folder '" + folder.string() + "' to report on");
   const auto written = {"summary.json", "resolved.xml", "run.log", "run.h5"};
   if (std::none_of(written.begin(), written.end(),
                    [&](const char* name) { return stands(folder / name); }))
-    throw MachineFailure(
+    throw DeckFailure(
         "'" + folder.string() +
         "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, run.h5");
   Run run;
