@@ -139,12 +139,23 @@ void check(herr_t status, const std::string& doing) {
   if (status < 0) throw MachineFailure(fmt::format("HDF5 cannot {}: {}", doing, reason()));
 }
 
+void with_check_sums(hid_t access) { check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "make a file"); }
+
+void keep_in_header(hid_t creation) {
+  constexpr unsigned most = 65535;
+  check(H5Pset_link_phase_change(creation, most, 0), "make a group");
+  check(H5Pset_attr_phase_change(creation, most, 0), "make a group");
+}
+
 MemoryFile::MemoryFile() {
   const Handle access = take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file in memory");
   check(H5Pset_fapl_core(access.id(), growth, false), "make a file in memory");
+  with_check_sums(access.id());
   static std::atomic<int> count{0};  // HDF5 tells files in memory apart by their names alone
   const std::string name = fmt::format("in memory {}", count++);
-  file_ = take(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "make a file in memory");
+  const Handle how = take(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a file in memory");
+  keep_in_header(how.id());
+  file_ = take(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, how.id(), access.id()), H5Fclose, "make a file in memory");
 }
 
 std::span<const std::byte> MemoryFile::image() const {
@@ -157,7 +168,9 @@ std::span<const std::byte> MemoryFile::image() const {
 }
 
 Handle make_group(hid_t place, const std::string& name) {
-  return take(H5Gcreate2(place, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "make group '" + name + "'");
+  const Handle how = take(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a group");
+  keep_in_header(how.id());
+  return take(H5Gcreate2(place, name.c_str(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Gclose, "make group '" + name + "'");
 }
 
 void set_attribute(hid_t object, const std::string& name, const std::string& text) {
