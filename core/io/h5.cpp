@@ -139,23 +139,30 @@ void check(herr_t status, const std::string& doing) {
   if (status < 0) throw MachineFailure(fmt::format("HDF5 cannot {}: {}", doing, reason()));
 }
 
-void with_check_sums(hid_t access) { check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "make a file"); }
+namespace {
 
+// Links and attributes stay in the header of their group, which has a check sum: the heap into which the library would put many has none.
 void keep_in_header(hid_t creation) {
   constexpr unsigned most = 65535;
   check(H5Pset_link_phase_change(creation, most, 0), "make a group");
   check(H5Pset_attr_phase_change(creation, most, 0), "make a group");
 }
 
+}  // namespace
+
+Handle make_file(const std::string& name, hid_t access) {
+  check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), "make a file");
+  const Handle how = take(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a file");
+  keep_in_header(how.id());
+  return take(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, how.id(), access), H5Fclose, "make file '" + name + "'");
+}
+
 MemoryFile::MemoryFile() {
   const Handle access = take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file in memory");
   check(H5Pset_fapl_core(access.id(), growth, false), "make a file in memory");
-  with_check_sums(access.id());
   static std::atomic<int> count{0};  // HDF5 tells files in memory apart by their names alone
   const std::string name = fmt::format("in memory {}", count++);
-  const Handle how = take(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a file in memory");
-  keep_in_header(how.id());
-  file_ = take(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, how.id(), access.id()), H5Fclose, "make a file in memory");
+  file_ = make_file(name, access.id());
 }
 
 std::span<const std::byte> MemoryFile::image() const {

@@ -22,12 +22,10 @@ std::string reason();
 /// Takes over an identifier, or throws MachineFailure "HDF5 cannot <doing>: <reason>".
 Handle take(hid_t id, Handle::Close close, const std::string& doing);
 void check(herr_t status, const std::string& doing);
-/// For files to be made: the format since HDF5 1.8, whose every piece of structure has a check sum. What a disk has damaged is then an error; in the
+
+/// Makes a file anew, in the format since HDF5 1.8, in which every piece of structure has a check sum: what a disk has damaged is then an error. In the
 /// older one the library follows it, and may not survive that.
-void with_check_sums(hid_t access);
-/// For groups and files to be made: links and attributes stay in the header of their group, which has a check sum; the heap into which the library
-/// would put many of them has none.
-void keep_in_header(hid_t creation);
+Handle make_file(const std::string& name, hid_t access);
 
 /// A file that is made in memory, so that the disk sees one plain write whose errors are the system's own. (A file
 /// that HDF5 itself could not finish stays open in the library, holding its space, until the program ends.)

@@ -306,11 +306,8 @@ void Recorder::write_view() const {
 std::uintmax_t Recorder::write_one_file(const path& part, const Domain& domain) const {
   const h5::Handle access = h5::take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file");
   H5Pset_file_locking(access.id(), false, true);
-  h5::with_check_sums(access.id());
   make_part(record_);
-  const h5::Handle how = h5::take(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a file");
-  h5::keep_in_header(how.id());
-  const h5::Handle out = h5::take(H5Fcreate(part.c_str(), H5F_ACC_TRUNC, how.id(), access.id()), H5Fclose, "make a file");
+  const h5::Handle out = h5::make_file(part.string(), access.id());
   reserve(part, room_for_one_file());  // HDF5 does not survive a disk that fills up while it copies an object
   write_all_but_frames(out.id(), meta_, domain);
   const h5::Handle frames = h5::make_group(out.id(), "frames");

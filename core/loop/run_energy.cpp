@@ -148,10 +148,9 @@ void Run::find_free_motions() {
   for (const std::string& line : free_.words()) options_.say(line);
 }
 
-// In the step of the first break, with what breaks in it: all may be over before the next look is due.
+// In the step of the first break, which is complete, with what breaks in it: all may be over before the next look is due.
 void Run::look_at_first_break() {
   if (!domain().breaks().breaks.empty()) return;
-  complete();
   EnergySums sums;
   energies(sums);
   look_at_quality(sums);

@@ -69,6 +69,14 @@ expect 0 -- "$beadwork" run "$deck" --plugins "$work/it's here/my ropes.so" --ou
 expect 0 -- env -C / "$beadwork" run "$work/named/resolved.xml" --out "$work/again" --threads 1
 cmp "$work/out/curves/force.csv" "$work/again/curves/force.csv" && cmp "$work/named/resolved.xml" "$work/again/resolved.xml" || fail "the resolved deck is another one"
 
+echo "a plugin of ours can be copied, renamed and built, with what it includes"
+mkdir -p "$work/copy/fill"
+sed 's/Lattice/Grid/g' "$work/moved/share/beadwork/examples/plugins/fill/lattice.cpp" >"$work/copy/fill/grid.cpp"
+printf 'cmake_minimum_required(VERSION 3.25)\nproject(Copy LANGUAGES CXX)\nfind_package(Beadwork 0.1 REQUIRED)\nbeadwork_add_plugins(copy NAMESPACE beadwork fill/grid.cpp)\n' \
+  >"$work/copy/CMakeLists.txt"
+build_project "$work/copy" "$work/copied"
+expect 0 count density -- "$beadwork" describe grid --plugins "$work/copied/copy.so"
+
 echo "a resume knows a library that has changed"
 cp "$work/it's here/my ropes.so" "$work/original"
 printf 'another build' >>"$work/it's here/my ropes.so"
