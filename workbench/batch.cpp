@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "core/base/failure.hpp"
 #include "core/base/processors.hpp"
@@ -66,11 +67,11 @@ void write_command(BatchRun& run, int threads, const Words& words) {
 std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector<Variation>& variations) {
   std::vector<BatchRun> runs;
   for (const auto& values : combinations(variations)) runs.push_back(run_of(arguments, variations, values));
-  std::vector<std::string> names;
-  for (const BatchRun& run : runs) names.push_back(run.name);
-  std::sort(names.begin(), names.end());
-  if (const auto twin = std::adjacent_find(names.begin(), names.end()); twin != names.end())
-    throw DeckFailure(fmt::format("error: two runs would write folder '{}'", (fs::path(arguments.out) / *twin).string()));
+  std::map<std::string, const BatchRun*> by_folder;
+  for (const BatchRun& run : runs)
+    if (const auto [twin, is_new] = by_folder.emplace(run.name, &run); !is_new)
+      throw DeckFailure(fmt::format("error: the runs with {} and with {} would write the same folder, '{}': give values whose names differ in letters and digits",
+                                    shell_quoted(twin->second->title), shell_quoted(run.title), (fs::path(arguments.out) / run.name).string()));
   return runs;
 }
 

@@ -217,7 +217,10 @@ class Here {
   void note_end(const Ended& ended) {
     BatchRun& run = *ended.run;
     const int status = ended.status;
-    run.code = WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::machine);
+    if (WIFEXITED(status))
+      run.code = WEXITSTATUS(status);
+    else
+      run.code = static_cast<int>(ends_by_asking(WTERMSIG(status)) ? ExitCode::interrupted : ExitCode::machine);
     run.done = run.code == 0;
     next_look_ = {};
     const std::string log = (run.folder / "run.log").string();

@@ -4,7 +4,9 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <iterator>
 
 namespace beadwork {
 
@@ -27,7 +29,11 @@ void handle(int number, void (*with)(int)) {
   ::sigaction(number, &action, nullptr);
 }
 
+constexpr int asking[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
+
 }  // namespace
+
+bool ends_by_asking(int number) { return std::find(std::begin(asking), std::end(asking), number) != std::end(asking); }
 
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -35,13 +41,13 @@ void hold_standard_streams() {
 }
 
 void default_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU})
+  for (const int number : asking)
     if (!is_ignored(number)) handle(number, SIG_DFL);
 }
 
 void heed_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) handle(number, note);
-  if (!is_ignored(SIGHUP)) handle(SIGHUP, note);
+  for (const int number : asking)
+    if (number != SIGHUP || !is_ignored(SIGHUP)) handle(number, note);
   for (const int number : {SIGPIPE, SIGXFSZ}) handle(number, SIG_IGN);
 }
 

@@ -150,6 +150,11 @@ std::string snake_from_kebab(std::string_view name) {
   return result;
 }
 
+bool is_plain_name(std::string_view name) {
+  const auto plain = [](unsigned char c) { return c > ' ' && c != 127 && c != '/' && c != '\\' && c != '"'; };
+  return name.size() <= 100 && name.find_first_not_of('.') != std::string_view::npos && std::all_of(name.begin(), name.end(), plain);
+}
+
 std::string shell_quoted(std::string_view word) {
   const auto is_safe = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("_./:,+@%=-").find(c) != std::string_view::npos;

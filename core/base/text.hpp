@@ -39,6 +39,10 @@ std::string snake_from_kebab(std::string_view name);
 std::string shell_quoted(std::string_view word);  ///< as one word of one line of bash; as it is where that needs no quotes
 std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes; safe_text
 
+/// Whether this can name a set, a family or a curve: names stand in lists, in files and their names.
+bool is_plain_name(std::string_view name);
+inline constexpr std::string_view plain_name = "a name without blanks, slashes and quotes, of at most 100 letters";
+
 /// A line that stands in one of two texts only.
 struct OddLine {
   bool in_second;

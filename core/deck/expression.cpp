@@ -1,6 +1,7 @@
 #include "core/deck/expression.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "core/base/text.hpp"
 #include "core/deck/deck.hpp"
@@ -44,10 +45,12 @@ std::optional<Expression> Expression::compile(std::string_view text, const Locat
       handles[i] = recorder.constant(values[i] = *quantity, token);
     }
     const int result = record(tokens, handles, text.size(), recorder);
+    const Operand& whole = recorder.at(result);
+    if (whole.is_condition && std::isnan(whole.value)) throw ExpressionMistake(whole.begin, "this condition compares what is no number");
     Expression expression;
     expression.text_ = spelt_in_si(tokens, values);
-    expression.dimension_ = recorder.at(result).dimension;
-    expression.is_condition_ = recorder.at(result).is_condition;
+    expression.dimension_ = whole.dimension;
+    expression.is_condition_ = whole.is_condition;
     expression.steps_ = std::move(recorder).steps();
     expression.steps_.resize(static_cast<std::size_t>(result) + 1);
     return expression;

@@ -43,7 +43,10 @@ std::unique_ptr<Scene> Scene::assemble(const Deck& deck, const Catalogue& catalo
 std::vector<Constraint> Stage::constraints() const {
   std::vector<Constraint> all;
   for (const Load* load : loads)
-    for (Constraint& c : blaming(*load, "constraints", [&] { return load->constraints(); })) all.push_back(std::move(c));
+    for (Constraint& c : blaming(*load, "constraints", [&] { return load->constraints(); })) {
+      c.place = load->at().where();
+      all.push_back(std::move(c));
+    }
   return all;
 }
 

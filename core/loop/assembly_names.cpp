@@ -82,13 +82,8 @@ std::vector<const Watcher*> Assembly::watchers() const {
   return all;
 }
 
-// Names of sets and families stand in lists, and all of them in files and their names.
 void Assembly::check_name(const ParamBase& param, const std::string& name) {
-  constexpr std::size_t longest = 100;
-  const auto plain = [](unsigned char c) { return c > ' ' && c != 127 && c != '/' && c != '\\' && c != '"'; };
-  if (name.size() <= longest && name.find_first_not_of('.') != std::string::npos && std::all_of(name.begin(), name.end(), plain)) return;
-  complaints_.error(param.at(), fmt::format("'{}' wants a name without blanks, slashes and quotes, of at most {} letters, got \"{}\"",
-                                            param.info().name, longest, name));
+  if (!is_plain_name(name)) complaints_.error(param.at(), fmt::format("'{}' wants {}, got \"{}\"", param.info().name, plain_name, name));
 }
 
 // It is told now, not after the filling that stands in front.

@@ -135,6 +135,8 @@ void Run::connect(Stage& stage) {
     blaming(*law, moment_, [&, law = law, table = table] { law->connect(domain(), *table); });
     const std::string remark = blaming(*law, "remark", [&, law = law] { return law->remark(); });
     options_.say(fmt::format("bond family '{}': {} bonds{}{}", law->family(), table->size(), remark.empty() ? "" : "; ", remark));
+    const std::string caution = blaming(*law, "caution", [&, law = law] { return law->caution(); });
+    if (!caution.empty()) options_.warn(fmt::format("{}: bond family '{}': {}", law->at().where(), law->family(), caution));
   }
   for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->clear(domain()); });
   for (Load* load : stage.loads) blaming(*load, moment_, [&] { load->start(domain()); });

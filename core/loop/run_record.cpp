@@ -346,6 +346,7 @@ void Run::close(const std::string& status, ExitCode code, const std::string& rea
 CurveSink& Run::curve(const CurvePlan& plan) {
   const auto there = curves_.find(plan.name);
   if (there != curves_.end()) return *there->second;
+  if (!is_plain_name(plan.name)) throw std::invalid_argument(fmt::format("a curve wants {}, got \"{}\"", plain_name, plan.name));
   std::vector<CurveColumn> columns{{"time", "s"}};
   for (const auto& [name, unit] : plan.columns) columns.push_back({name, unit});
   const auto file = folder_.curve(plan.name);

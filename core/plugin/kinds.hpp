@@ -97,6 +97,8 @@ class BondLaw : public Plugin {
   virtual void connect(Domain& domain, BondTable& table) = 0;
   /// What the log says once of the bonds just made.
   virtual std::string remark() const { return ""; }
+  /// What the log warns of once, at the bonds just made: that they will not do what the deck seems to want; "" for nothing.
+  virtual std::string caution() const { return ""; }
   /// Adds the forces of all live bonds to the elements: a pure function of the state and the accepted history.
   virtual void act(Domain& domain, BondTable& table, const Evaluation& evaluation) = 0;
   /// Takes the forces of one bond off the sums again: it has just broken, at this configuration.
@@ -138,7 +140,8 @@ enum class Grip {
 
 /// Rows (element, axis, coefficient) = value(t).
 struct Constraint {
-  std::string by;  ///< id of the load
+  std::string by;     ///< id of the load
+  std::string place;  ///< of the load in the deck; set by the loop
   std::string set;
   int axis = 0;  ///< 0 x, 1 y, 2 z; 3 4 5 the turns about them, which can be held only
   Grip grip = Grip::each;
@@ -149,13 +152,8 @@ struct Constraint {
   Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
   Real work = 0;                                 ///< of these forces so far [J]
 
-  PrescribedMotion at(Real time) const {
-    try {
-      return motion(time - began);
-    } catch (...) {
-      blame("error: plugin " + by + " failed in the motion that it prescribes");
-    }
-  }
+  /// Throws PhysicsFailure, with the load's place in the deck, if the motion fails or is no number.
+  PrescribedMotion at(Real time) const;
 };
 
 class Load : public Plugin {

@@ -1,5 +1,11 @@
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "core/base/failure.hpp"
 #include "core/base/units.hpp"
 #include "core/domain/vocabulary.hpp"
@@ -131,6 +137,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     if (*area_rule == "normalised")
       for (Index row = 0; row < table.size(); ++row) area[row] *= *interface_area / sum;
     if (carried()) set_normals(domain, table);
+    tilt_ = carried() ? 0 : tilt_of_lines(table);
   }
 
   std::string remark() const override {
@@ -138,6 +145,14 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     if (!interface_area.given()) return all + about_normals_;
     return fmt::format("{}, {:.4g} of the interface; {}{}", all, literal_area_ / *interface_area,
                        *area_rule == "literal" ? "taken as it is" : "scaled to the interface", about_normals_);
+  }
+
+  std::string caution() const override {
+    constexpr Real little = 10;  // degrees
+    if (*modes != "both" || !(tilt_ > little)) return "";
+    return fmt::format("its lines of centres lie {:.0f} degrees off their mean (rms): measured against them, contacts lock when the interface is sheared and take "
+                       "more than their strength and energy; normal=\"plane\", or \"axis\" around a fibre, gives them the interface's normal",
+                       tilt_);
   }
 
   Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
@@ -220,6 +235,17 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
       }
   }
 
+  /// How far the lines of centres lie off the one direction that they have in common (rms) [deg].
+  Real tilt_of_lines(const BondTable& table) const {
+    Mat3 mean = Mat3::Zero();
+    for (Index row = 0; row < table.size(); ++row) {
+      const Vec3 line = (position[table.second()[row]] - position[table.first()[row]]).normalized();
+      mean += line * line.transpose() / static_cast<Real>(table.size());
+    }
+    const Real along = Eigen::SelfAdjointEigenSolver<Mat3>(mean, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    return std::acos(std::sqrt(std::clamp(along, Real(0), Real(1)))) * 180 / std::numbers::pi;
+  }
+
   void set_normals(const Domain& domain, const BondTable& table) {
     std::vector<Meeting> meetings;
     const auto is_in = [&](std::size_t which) {
@@ -272,6 +298,7 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
   }
 
   Real literal_area_ = 0;
+  Real tilt_ = 0;  // of the lines of centres, where they are the normals [deg]
   std::string about_normals_;
 };
 

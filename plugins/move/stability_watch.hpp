@@ -11,14 +11,19 @@
 
 namespace beadwork {
 
-/// What is probably wrong with a run that gains energy, at a time step of so much of the largest stable one (0: no bond limits it).
-inline std::string suspect_step(Real ratio) {
+/// The time step's own fault, at so much of the largest stable one (0: no bond limits it); "" where it has none.
+inline std::string fault_of_step(Real ratio) {
   if (ratio > 1)
     return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
-  if (ratio == 0) return "no bond limits the time step, so probably it is too long: lower 'time-step'";
+  return ratio == 0 ? "no bond limits the time step, so probably it is too long: lower 'time-step'" : "";
+}
+
+/// What is probably wrong with a run that gains energy.
+inline std::string suspect_step(Real ratio, bool laws_damp) {
+  if (const std::string fault = fault_of_step(ratio); !fault.empty()) return fault;
   return fmt::format("the time step is {:.3g} of the largest stable one, so probably the tangent that a bond law states is too small, or its force is "
-                     "not the slope of its stored energy: if a smaller 'safety' helps, it is the tangent",
-                     ratio);
+                     "not the slope of its stored energy{}: if a smaller 'safety' helps, it is the tangent",
+                     ratio, laws_damp ? ", or its damping takes another power than it states" : "");
 }
 
 class StabilityWatch {
@@ -91,10 +96,8 @@ class StabilityWatch {
 
   std::string cause() const {
     const Real ratio = dt() / stable_;
-    if (ratio > 1)
-      return fmt::format("probable cause: the time step is {:.4g} times the largest stable one; leave 'time-step' out, or lower 'safety'", ratio);
-    if (ratio == 0) return "no bond limits the time step, so probably it is too long: lower 'time-step'";
-  return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast, or the tangent that a bond law states too small", ratio);
+    if (const std::string fault = fault_of_step(ratio); !fault.empty()) return fault;
+    return fmt::format("the time step is {:.3g} of the largest stable one, so probably a load is too fast, or the tangent that a bond law states too small", ratio);
   }
 
   Workings& w_;

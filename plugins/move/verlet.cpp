@@ -9,6 +9,7 @@
 #include "plugins/move/beta_damping.hpp"
 #include "plugins/move/dashpots.hpp"
 #include "plugins/move/grips.hpp"
+#include "plugins/move/law_damping.hpp"
 #include "plugins/move/local_damping.hpp"
 #include "plugins/move/rayleigh.hpp"
 #include "plugins/move/shadow.hpp"
@@ -41,6 +42,7 @@ class Verlet final : public Mover {
   Keeps<Real> damping_power{this, {"damping-power", On::scene, "W", "Power that forces of damping took at the last step"}};
   Keeps<Real> gripped{this, {"gripped", On::scene, "1", "Step whose bonds decided which elements without bonds a grip leaves out"}};
   Keeps<Real> rayleigh{this, {"rayleigh", On::scene, "1", "Rayleigh quotient of the motion at the last look, times a quarter of the squared step: 1 is beyond any step"}};
+  Keeps<Real> law_lag{this, {"law-lag", On::scene, "J", "By how much the energy that is booked for bond laws that damp lags at the last look"}};
   Keeps<Real> stable{this, {"stable-step", On::scene, "s", "Largest stable step when the stage began"}};
 
   void choose_rotations(bool wanted) override {
@@ -57,9 +59,9 @@ class Verlet final : public Mover {
 
   void prepare(Workings& w, bool resumed) override {
     behind_ = false;
-    laws_move_ = std::any_of(w.laws().begin(), w.laws().end(), [](const auto& acting) { return acting.first->moves(); });
     count_ = w.domain().size();
     position_ = w.domain().elements().column("position").view<Vec3>();
+    law_damping_.prepare(w);
     if (!resumed) gripped[0] = static_cast<Real>(w.moment().stage_step);
     grips_ = Grips(w, std::llround(gripped[0]));
     const std::vector<Break>& breaks = w.domain().breaks().breaks;
@@ -84,12 +86,14 @@ class Verlet final : public Mover {
                            fixed_step.at().where(), w.moment().time_step, largest));
       stable[0] = largest;
       grips_.seize(w, places(), turns(), *beta);
+      law_damping_.see(motion());
       w.evaluate(false);
       damping_power[0] = damp(w);
-      damping_power[0] += dashpots_.power(velocity.view(), spin.view()) + power_of_laws(w);
+      damping_power[0] += dashpots_.power(velocity.view(), spin.view()) + law_damping_.power(w, motion());
       grips_.react(w, places(), turns(), *beta);
     }
     dt_ = w.moment().time_step;
+    lag_is_of_ = resumed ? w.moment().step : -1;
   }
 
   bool in_single() const override { return *precision == "mixed"; }
@@ -104,23 +108,22 @@ class Verlet final : public Mover {
     grips_.after_advance(w, position_, mass.view(), *beta);
     now.time += now.time_step;
     ++now.step;
-    laws_move_ ? evaluate_foreseen(w) : w.evaluate(true);
+    law_damping_.acts() ? evaluate_foreseen(w) : w.evaluate(true);
     const Real taken_by_local = damp(w);
     if (quotient_.remembers()) rayleigh[0] = quotient_.of_step(motion(), grips_, dt_);
     grips_.react(w, places(), turns(), *beta);
     behind_ = true;
-    if (*beta < 1 || dashpots_.any() || laws_move_ || now.step % watched_every == 0) complete(w);
+    if (*beta < 1 || dashpots_.any() || law_damping_.acts() || now.step % watched_every == 0) catch_up(w);
     if (*beta < 1) damped[0] += beta_damping_.taken(motion(), grips_, *beta);
-    book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()) + power_of_laws(w));
+    book_damping(now.time_step, taken_by_local + dashpots_.power(velocity.view(), spin.view()) + law_damping_.power(w, motion()));
     if (now.step % watched_every == 0 && std::isfinite(stable[0])) StabilityWatch(w, motion(), stable[0]).look();  // something was bonded
   }
 
   void complete(Workings& w) override {
-    if (!behind_) return;
-    const VerletRows rows = verlet(w);
-    behind_ = false;
-    stop_if(w, rows::any_of(count_, [&](const auto& at) { return any(rows.complete(at)); }));
-    grips_.after_correct(w, places(), turns());
+    catch_up(w);
+    if (lag_is_of_ == w.moment().step) return;
+    law_lag[0] = law_damping_.lag(w, motion(), dt_);
+    lag_is_of_ = w.moment().step;
   }
 
   void energy(EnergySink& sink) const override {
@@ -134,11 +137,11 @@ class Verlet final : public Mover {
   }
   // A motion that no step resolves has no such excuse: its energy can grow while energy less swing stays as it is.
   Real swing() const override {
-    return rayleigh[0] < beyond_steps ? shadow(motion(), grips_, dt_, *local_damping) - dashpots_.lag(motion(), dt_) : 0;
+    return rayleigh[0] < beyond_steps ? shadow(motion(), grips_, dt_, *local_damping) - dashpots_.lag(motion(), dt_) - law_lag[0] : 0;
   }
   // Without what means hold: their reaction jumps with the forces, and the set as a whole feels nothing.
   Real shadow_energy() const override { return std::max(Real(0), shadow(motion(), grips_, dt_, 0) - dt_ * dt_ / 8 * grips_.held_by_means(places(), turns())); }
-  std::string suspect() const override { return suspect_step(dt_ / stable[0]); }
+  std::string suspect() const override { return suspect_step(dt_ / stable[0], law_damping_.acts()); }
 
  private:
   Motion motion() const {
@@ -162,7 +165,7 @@ class Verlet final : public Mover {
       return found;
     };
     StepLimit found = limit(std::numeric_limits<Real>::infinity());
-    if (!dashpots_.any() && !laws_move_) return found;
+    if (!dashpots_.any() && !law_damping_.acts()) return found;
     Real dt = std::isfinite(found.time_step) ? found.time_step : 1;  // s: damping alone limits it too, from whatever step one looks
     for (int round = 0; round < 100; ++round) {
       found = limit(dt);
@@ -175,26 +178,21 @@ class Verlet final : public Mover {
   // Laws that read velocities see those of the step, as far as they can be known before its forces are: v + beta dt a. They are exact to
   // second order; those of half a step ago, which stand there, would make it first.   docs/theory/verlet.md
   void evaluate_foreseen(Workings& w) {
-    half_way_.resize(static_cast<std::size_t>(2 * count_));
-    each_shared(count_, [&](Index i) {
-      half_way_[static_cast<std::size_t>(2 * i)] = velocity[i];
-      if (spin) half_way_[static_cast<std::size_t>(2 * i + 1)] = spin[i];
-    });
-    behind_ = true;
-    complete(w);
-    w.evaluate(true);
-    each_shared(count_, [&](Index i) {
-      velocity.set(i, half_way_[static_cast<std::size_t>(2 * i)]);
-      if (spin) spin.set(i, half_way_[static_cast<std::size_t>(2 * i + 1)]);
-    });
+    law_damping_.evaluate(
+        motion(),
+        [&] {
+          behind_ = true;
+          catch_up(w);
+        },
+        [&] { w.evaluate(true); });
   }
 
-  // At the velocities that stand there.
-  Real power_of_laws(Workings& w) const {
-    Real power = 0;
-    if (laws_move_)
-      for (const auto& [law, table] : w.laws()) power += blaming(*law, "power", [&, law = law, table = table] { return law->power(w.domain(), *table); });
-    return power;
+  void catch_up(Workings& w) {
+    if (!behind_) return;
+    const VerletRows rows = verlet(w);
+    behind_ = false;
+    stop_if(w, rows::any_of(count_, [&](const auto& at) { return any(rows.complete(at)); }));
+    grips_.after_correct(w, places(), turns());
   }
 
   // What broke since the last step pulls no longer. What broke loose of a mean is let go; what is left is held to the prescribed
@@ -205,7 +203,7 @@ class Verlet final : public Mover {
     const bool loosened = grips_.loosened(breaks, seen_breaks_);
     seen_breaks_ = breaks.size();
     if (loosened) {
-      complete(w);
+      catch_up(w);
       gripped[0] = static_cast<Real>(w.moment().step);
       Grips anew(w, w.moment().step);
       anew.take_over(w, grips_, places(), turns());
@@ -265,11 +263,11 @@ class Verlet final : public Mover {
   View<Vec3> position_;
   Grips grips_;
   Dashpots dashpots_;
+  LawDamping law_damping_;
   BetaDamping beta_damping_;
   RayleighQuotient quotient_;
+  std::int64_t lag_is_of_ = -1;  // step
   bool behind_ = false;          // velocities stand half a step behind the places
-  bool laws_move_ = false;       // some law of the stage reads velocities
-  std::vector<Vec3> half_way_;   // velocities and spins, while laws see others
   Real dt_ = 0;                  // [s]
   std::size_t seen_breaks_ = 0;  // of the log, that the grips know of
   StepLimit step_;

@@ -119,6 +119,11 @@ iconv -f utf-8 -t utf-8 "$work/bytes/batch.csv" >/dev/null || fail "no UTF-8"
 ! grep -q $'\x1b' "$work/bytes/batch.csv" || fail "a control character"
 [ "$(rows ',done,2,200,' bytes)" = 1 ] || fail "the good one did not run"
 
+echo "values whose folders would have one name are told apart before anything runs"
+expect 2 "$beadwork" batch "$deck" --out "$work/twins" --vary 'E=50 GPa,50-GPa'
+says "the runs with 'E=50 GPa' and with E=50-GPa would write the same folder"
+[ ! -e "$work/twins" ] || fail "something was written"
+
 echo "names of any length"
 long=$(printf '0%.0s' $(seq 300))
 expect 0 "$beadwork" batch "$deck" --out "$work/names" --vary "E=50.${long}1 GPa,50.${long}2 GPa" --set n=2
@@ -249,6 +254,18 @@ wait $again || got=$?
 ! grep -q "exit code" "$work/output" || fail "a run is called failed"
 [ "$(rows ',interrupted,' orphans)" = 2 ] || fail "not interrupted: $(cat "$work/orphans/batch.csv")"
 grep -q "resumed at step" "$work/orphans/E=50-GPa/run.log" || fail "did not go on where the orphan was"
+
+echo "runs that are asked to stop while they start are interrupted, not failed"
+for pause in 0 0.004 0.008 0.012 0.016 0.02 0.03 0.04 0.06 0.1; do
+  "$beadwork" batch "$deck" --out "$work/starts" --vary 'E=50 GPa,100 GPa' --jobs 2 --set n=1000000000 >"$work/output" 2>&1 &
+  batch=$!
+  for _ in $(seq 2000); do pgrep -P $batch >/dev/null && break; sleep 0.005; done
+  sleep $pause
+  kill -TERM $batch
+  got=0
+  wait $batch || got=$?
+  [ $got = 5 ] || fail "exit code $got, not 5, after $pause s"
+done
 
 echo "a run names itself"
 sed 's|<force-curve |&at="1000 s" |' "$deck" >"$work/vain.xml"

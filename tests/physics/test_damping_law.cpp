@@ -73,6 +73,15 @@ TEST_P(Oscillator, books_what_its_damping_takes) {
   EXPECT_LT(fine, coarse / 3.3);
 }
 
+// The watch takes off what the scheme swings by and what the booking lags behind by; nothing else is left, be the step as long as it may.
+TEST_P(Oscillator, keeps_its_balance_to_round_off_at_any_step) {
+  for (const char* safety : {"0.95", "0.5", "0.1"}) {
+    const auto run = oscillator(GetParam(), fmt::format("safety=\"{}\"", safety), 100 / omega);
+    EXPECT_EQ(run.failure, "");
+    EXPECT_LT(run.summary.at("quality").at("residual_over_work").get<Real>(), 1e-9) << safety;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Damping, Oscillator, ::testing::Values(0.01, 0.1, 0.5, 1, 2));
 
 TEST(Damping, limits_the_step_without_any_stiffness) {

@@ -19,6 +19,9 @@ std::string trap;        // the function that throws
 bool throws_42 = false;  // instead of an exception
 std::string words;       // of the exception, where not the usual ones
 std::string report;      // that the filler hands over
+std::string curve;       // that the watcher writes
+int astray = -1;         // 0 1 2: the load's displacement, velocity, acceleration is not
+Real missing = 0;        // but this
 
 void trip(const std::string& function) {
   if (function != trap) return;
@@ -69,6 +72,7 @@ class WiredLaw final : public Wired<BondLaw> {
   bool accepts(const Domain&, Index, Index) const override { return wire("accepts"), true; }
   void connect(Domain&, BondTable&) override { wire("connect"); }
   std::string remark() const override { return wire("remark"), ""; }
+  std::string caution() const override { return wire("caution"), ""; }
   void act(Domain& domain, BondTable&, const Evaluation&) override {
     each_shared(100, [&](int k) {
       if (k == 70) wire("act");
@@ -94,7 +98,7 @@ class WiredLoad final : public Wired<Load> {
     wire("constraints");
     Constraint c;
     c.by = id(), c.set = *set, c.driven = true;
-    c.motion = [this](Real) { return wire("motion"), PrescribedMotion{}; };
+    c.motion = [this](Real) { return wire("motion"), PrescribedMotion{astray == 0 ? missing : 0, astray == 1 ? missing : 0, astray == 2 ? missing : 0}; };
     return {c};
   }
   void push(Domain&, const Moment&) override { wire("push"); }
@@ -152,6 +156,7 @@ class WiredWatch final : public Wired<Watcher> {
     wire("look");
     EnergySums sums;
     sight.energies(sums);
+    if (!curve.empty()) sight.curve({.name = curve, .columns = {}});
   }
 };
 
@@ -187,7 +192,7 @@ void run_deck(const Scratch& scratch) {
 TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
   for (const std::string function :
        {"fill constructor", "fill check", "fill choose", "fill energy", "fill fill", "fill conclude", "bond constructor", "bond check", "bond choose",
-        "bond accepts", "bond connect", "bond remark", "bond act", "bond withdraw", "bond events", "bond stored_energy of one", "bond stored_energy",
+        "bond accepts", "bond connect", "bond remark", "bond caution", "bond act", "bond withdraw", "bond events", "bond stored_energy of one", "bond stored_energy",
         "bond dissipated_energy", "bond energy", "load constructor", "load check", "load choose", "load clear", "load start", "load constraints",
         "load motion", "load push", "load account", "load energy", "move constructor", "move check", "move choose", "move choose_rotations",
         "move check_stage", "move prepare", "move step", "move complete", "move energy", "fail constructor", "fail check", "fail choose", "fail judge",
@@ -208,13 +213,35 @@ TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
       const std::string plugin = function.substr(0, function.find(' ')) + ".wired";
       EXPECT_NE(said.find("plugin " + plugin), std::string::npos) << function << ": " << said;
       EXPECT_NE(said.find(bare ? "no std::exception" : "the wire was touched"), std::string::npos) << function << ": " << said;
-      if (function != "load motion") EXPECT_NE(said.find("deck.xml"), std::string::npos) << function << ": " << said;
+      EXPECT_NE(said.find("deck.xml"), std::string::npos) << function << ": " << said;
       const std::string summary = testing::text_of(scratch / "out/summary.json");
       if (!summary.empty()) EXPECT_NE(summary.find("\"status\": \"failed\""), std::string::npos) << function << ": " << summary;
     }
   trap.clear();
   const Scratch scratch;
   EXPECT_NO_THROW(run_deck(scratch));
+}
+
+TEST(PluginFailures, a_motion_that_is_no_number_is_told_with_its_load_and_place) {
+  for (astray = 0; astray < 3; ++astray)
+    for (const Real value : {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity()}) {
+      missing = value;
+      const Scratch scratch;
+      const std::string said = testing::message_of<PhysicsFailure>([&] { run_deck(scratch); });
+      EXPECT_NE(said.find("deck.xml:4:10: error: plugin load.wired prescribes at 0 s"), std::string::npos) << said;
+    }
+  astray = -1;
+}
+
+TEST(PluginFailures, a_curve_whose_name_leads_elsewhere_is_the_failure_of_its_watcher) {
+  for (const std::string name : {"../../x", "a b", ".."}) {
+    const Scratch scratch;
+    curve = name;
+    const std::string said = testing::message_of<PhysicsFailure>([&] { run_deck(scratch); });
+    EXPECT_NE(said.find("deck.xml:7:11: error: "), std::string::npos) << said;
+    EXPECT_NE(said.find("plugin watch.wired failed: a curve wants a name without"), std::string::npos) << said;
+  }
+  curve.clear();
 }
 
 TEST(PluginFailures, in_words_that_are_no_text_do_not_hide_the_failure) {
