@@ -111,10 +111,11 @@ int plan(const PlanArguments& arguments) {
   RunOptions options;
   options.threads = arguments.threads;
   Progress progress([](const std::string&) {});
-  options.warn = [&](const std::string& warning) {
-    progress.hide();
-    say_error("warning: {}\n", warning);
-  };
+  options.log = Log([](const std::string&) {},
+                    [&](const std::string& warning) {
+                      progress.hide();
+                      say_error("warning: {}\n", warning);
+                    });
   options.progress = [&](const Headway& headway) { progress.show(headway); };
   Run run(scene, loaded.catalogue, folder, options);
   const Trial trial = run.trial(2);

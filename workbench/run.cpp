@@ -59,14 +59,15 @@ int run(const RunArguments& arguments) {
   options.commands = commands_of(arguments.words, arguments.batch);
   options.checkpoint_seconds = 60 * arguments.checkpoint_minutes;
   options.interrupt = &interrupted;
-  options.say = [&](const std::string& line) {
-    progress.hide();
-    log->info(line);
-  };
-  options.warn = [&](const std::string& line) {
-    progress.hide();
-    log->warn("warning: " + line);
-  };
+  options.log = Log(
+      [&](const std::string& line) {
+        progress.hide();
+        log->info(line);
+      },
+      [&](const std::string& line) {
+        progress.hide();
+        log->warn("warning: " + line);
+      });
   options.progress = [&](const Headway& headway) {
     progress.show(headway);
     tell(arguments.tell, headway);

@@ -17,6 +17,12 @@ Domain::Domain() {
   elements_.add(field::radius).keep();
 }
 
+Table& Domain::list(const std::string& name) {
+  std::unique_ptr<Table>& there = lists_[name];
+  if (!there) there = std::make_unique<Table>(Table::Layout::planes);
+  return *there;
+}
+
 Index Domain::add_elements(Index count) {
   const Index first = size();
   elements_.resize(first + count);

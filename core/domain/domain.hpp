@@ -1,5 +1,5 @@
 #pragma once
-// What is simulated: elements, families of bonds between them, named sets, and one row of numbers for the scene.
+// What is simulated: elements, families of bonds between them, named sets, and numbers of the scene.
 
 #include <limits>
 #include <map>
@@ -28,6 +28,9 @@ class Domain {
   Table& scene() { return scene_; }
   const Table& scene() const { return scene_; }
   Index size() const { return elements_.size(); }
+  /// What else the scene remembers by the row: of its constraints, its watchers, its criteria. Made if need be.
+  Table& list(const std::string& name);
+  const std::map<std::string, std::unique_ptr<Table>>& lists() const { return lists_; }
 
   /// Appends elements at rest, unturned; their other columns are zero. Returns the first new row.
   Index add_elements(Index count);
@@ -59,6 +62,7 @@ class Domain {
  private:
   Table elements_{Table::Layout::rows};
   Table scene_{Table::Layout::rows};
+  std::map<std::string, std::unique_ptr<Table>> lists_;
   std::map<std::string, Set> sets_;
   std::vector<std::unique_ptr<BondTable>> families_;
   BreakLog breaks_;

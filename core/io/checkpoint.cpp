@@ -14,7 +14,7 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 // ---- writing
 
@@ -23,6 +23,11 @@ void save_table(hid_t place, const std::string& name, const Table& table) {
   h5::set_attribute(group.id(), "rows", static_cast<std::int64_t>(table.size()));
   for (const Column* column : table.columns())
     if (column->kept()) h5::write_column(group.id(), *column, table.size());
+}
+
+void save_lists(hid_t place, const Domain& domain) {
+  const h5::Handle group = h5::make_group(place, "lists");
+  for (const auto& [name, list] : domain.lists()) save_table(group.id(), name, *list);
 }
 
 void save_families(hid_t place, const Domain& domain) {
@@ -57,14 +62,21 @@ void save_breaks(hid_t place, const BreakLog& log) {
   h5::write_integers(group.id(), "steps", steps, {"1", "Step"});
 }
 
+void save_moment(hid_t group, const Moment& moment) {
+  h5::set_attribute(group, "stage", static_cast<std::int64_t>(moment.stage));
+  h5::set_attribute(group, "time", moment.time);
+  h5::set_attribute(group, "step", moment.step);
+  h5::set_attribute(group, "time-step", moment.time_step);
+  h5::set_attribute(group, "stage-start", moment.stage_start);
+  h5::set_attribute(group, "stage-step", moment.stage_step);
+}
+
 void save_meta(hid_t place, const CheckpointMeta& meta) {
   const h5::Handle group = h5::make_group(place, "meta");
   h5::set_attribute(group.id(), "format", format_version);
   h5::set_attribute(group.id(), "version", meta.version);
   h5::set_attribute(group.id(), "deck_sha256", meta.deck_sha256);
-  h5::set_attribute(group.id(), "stage", static_cast<std::int64_t>(meta.stage));
-  h5::set_attribute(group.id(), "time", meta.time);
-  h5::set_attribute(group.id(), "step", meta.step);
+  save_moment(group.id(), meta.moment);
   h5::set_attribute(group.id(), "seed", static_cast<std::int64_t>(meta.seed));
   h5::write_text(group.id(), "resolved", meta.resolved);
   std::vector<std::string> keys, values;
@@ -78,6 +90,20 @@ void save_meta(hid_t place, const CheckpointMeta& meta) {
 
 // ---- reading
 
+Moment load_moment(hid_t group) {
+  const std::int64_t stage = h5::integer_attribute(group, "stage");
+  Moment m{h5::real_attribute(group, "time"),        h5::integer_attribute(group, "step"),     h5::real_attribute(group, "time-step"), static_cast<int>(stage),
+           h5::real_attribute(group, "stage-start"), h5::integer_attribute(group, "stage-step")};
+  const auto refuse_if = [](bool wrong, const std::string& what) {
+    if (wrong) throw MachineFailure(what + ", which no run can have");
+  };
+  refuse_if(stage < 0 || stage > std::numeric_limits<int>::max(), fmt::format("its stage is {}", stage));
+  refuse_if(m.step < 0 || !std::isfinite(m.time), fmt::format("it is of step {} at {} s", m.step, m.time));
+  refuse_if(!(std::isfinite(m.time_step) && m.time_step >= 0), fmt::format("its time step is {} s", m.time_step));
+  refuse_if(!std::isfinite(m.stage_start) || m.stage_step < 0 || m.stage_step > m.step, fmt::format("its stage began at step {} of {}, at {} s", m.stage_step, m.step, m.stage_start));
+  return m;
+}
+
 CheckpointMeta load_meta(hid_t place) {
   const h5::Handle group = h5::open_group(place, "meta");
   const std::int64_t format = h5::integer_attribute(group.id(), "format");
@@ -86,12 +112,7 @@ CheckpointMeta load_meta(hid_t place) {
   CheckpointMeta meta;
   meta.version = h5::text_attribute(group.id(), "version");
   meta.deck_sha256 = h5::text_attribute(group.id(), "deck_sha256");
-  const std::int64_t stage = h5::integer_attribute(group.id(), "stage");
-  if (stage < 0 || stage > std::numeric_limits<Index>::max()) throw MachineFailure(fmt::format("its stage is {}, which no run can have", stage));
-  meta.stage = static_cast<Index>(stage);
-  meta.time = h5::real_attribute(group.id(), "time");
-  meta.step = h5::integer_attribute(group.id(), "step");
-  if (meta.step < 0 || !std::isfinite(meta.time)) throw MachineFailure(fmt::format("it is of step {} at {} s, which no run can have", meta.step, meta.time));
+  meta.moment = load_moment(group.id());
   meta.seed = static_cast<std::uint64_t>(h5::integer_attribute(group.id(), "seed"));
   meta.resolved = h5::read_text(group.id(), "resolved");
   const auto keys = h5::read_texts(group.id(), "keys");
@@ -169,6 +190,16 @@ void require_whole(const Domain& domain) {
       if (row < 0 || row >= elements) throw MachineFailure(fmt::format("set '{}' names element {} of {}", name, row, elements));
 }
 
+// What the scene lists follows from the deck: its rows are there already.
+void load_lists(hid_t place, Domain& domain) {
+  const h5::Handle group = h5::open_group(place, "lists");
+  for (const auto& [name, list] : domain.lists()) {
+    if (!h5::has(group.id(), name) || saved_rows(group.id(), name) != list->size())
+      throw DeckFailure(fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it", list->size(), name));
+    load_columns(group.id(), name, *list, On::scene, fmt::format("the scene's {}", name));
+  }
+}
+
 // `families[k]` is the place in the domain of the file's family k.
 std::vector<Index> load_families(hid_t place, Domain& domain) {
   const h5::Handle group = h5::open_group(place, "bonds");
@@ -234,6 +265,7 @@ void save_checkpoint(const std::filesystem::path& file, const Domain& domain, co
   save_meta(out.id(), meta);
   save_table(out.id(), "elements", domain.elements());
   save_table(out.id(), "scene", domain.scene());
+  save_lists(out.id(), domain);
   save_families(out.id(), domain);
   save_sets(out.id(), domain);
   save_breaks(out.id(), domain.breaks());
@@ -252,6 +284,7 @@ void load_checkpoint(const std::filesystem::path& file, Domain& domain) {
     domain.add_elements(saved_rows(place, "elements"));
     load_columns(place, "elements", domain.elements(), On::elements, "elements");
     load_columns(place, "scene", domain.scene(), On::scene, "the scene");
+    load_lists(place, domain);
     const auto families = load_families(place, domain);
     load_sets(place, domain);
     domain.breaks() = load_breaks(place, families, domain);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/domain/domain.hpp"
+#include "core/domain/moment.hpp"
 
 namespace beadwork {
 
@@ -15,9 +16,7 @@ struct CheckpointMeta {
   std::string version;  ///< of the program
   std::string deck_sha256;
   std::string resolved;  ///< text of the resolved deck, for comparing it line by line
-  Index stage = 0;
-  Real time = 0;  ///< [s]
-  std::int64_t step = 0;
+  Moment moment;
   std::uint64_t seed = 0;
   std::map<std::string, std::string> texts;  ///< whatever else the caller wants back
 };

@@ -52,6 +52,10 @@ std::vector<Constraint> Stage::constraints() const {
 
 bool Stage::watched_by(const Watcher& watcher) const { return std::find(watchers.begin(), watchers.end(), &watcher) != watchers.end(); }
 
+void Scene::bind() const {
+  for (const auto& plugin : plugins) plugin->bind(*domain);
+}
+
 std::size_t Scene::first_stage(const BondLaw& law) const {
   for (std::size_t s = 0; s < stages.size(); ++s)
     for (const BondLaw* there : stages[s].laws)

@@ -14,7 +14,6 @@ namespace beadwork {
 
 namespace {
 
-using Warn = std::function<void(const std::string&)>;
 
 std::vector<char> membership(const Domain& domain, const std::string& set) {
   std::vector<char> member(static_cast<std::size_t>(domain.size()), 0);
@@ -62,7 +61,7 @@ Candidates candidates(const BondLaw& law, const Domain& domain, const Pause& pau
 }
 
 /// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it does not.
-void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, const Warn& warn) {
+void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, const Log& log) {
   const std::vector<Index> between = elements_between(among.position, among.radius, among.pairs, pause);
   const auto far = std::count_if(between.begin(), between.end(), [](Index k) { return k >= 0; });
   if (far == 0) return;
@@ -73,7 +72,7 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
     among.pairs.resize(kept);
     return;
   }
-  warn(fmt::format("{}: {} of the {} bonds of family '{}' reach over an element that lies between the two, since elements overlap or 'gap' is wide: "
+  log.warn(fmt::format("{}: {} of the {} bonds of family '{}' reach over an element that lies between the two, since elements overlap or 'gap' is wide: "
                    "they add to its stiffness; neighbours=\"next\" leaves them out",
                    law.at().where(), far, among.pairs.size(), *law.name));
 }
@@ -82,13 +81,13 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
 
 bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) { return !candidates(law, domain, pause).pairs.empty(); }
 
-std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause, const Warn& warn) {
+std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause, const Log& log) {
   Candidates among = candidates(law, domain, pause);
   if (among.pairs.empty())
     refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = {} of the sum of "
                                  "their radii between them; a larger 'gap' or another set may help",
                                  *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
-  mind_far_ones(law, among, pause, warn);
+  mind_far_ones(law, among, pause, log);
   std::vector<std::pair<Index, Index>> pairs;
   pairs.reserve(among.pairs.size());
   for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));

@@ -16,6 +16,6 @@ bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause);
 /// the next only, without those that reach over a third element, which are warned of elsewhere. Throws DeckFailure if there is
 /// none, or more than can be held.
 std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause,
-                                                   const std::function<void(const std::string&)>& warn);
+                                                   const Log& log);
 
 }  // namespace beadwork

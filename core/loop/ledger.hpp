@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
+#include "core/domain/kept.hpp"
 #include "core/plugin/plugin.hpp"
 
 namespace beadwork {
@@ -18,22 +18,33 @@ class Ledger {
 
   enum class Verdict { balanced, gains, runs_away };
 
+  Ledger() = default;
+  /// Keeps its numbers among those of the scene.
+  explicit Ledger(Table& scene)
+      : brought_(scene, "ledger.brought", "J", "Largest energy brought so far"),
+        gained_(scene, "ledger.gained", "J", "Energy gained from nothing at the last look"),
+        deviation_(scene, "ledger.deviation", "J", "Largest by which the balance failed to close so far"),
+        largest_swing_(scene, "ledger.swing", "J", "Largest swing of the scheme so far"),
+        smallest_swing_(scene, "ledger.swing-below", "J", "Smallest swing of the scheme so far"),
+        told_(scene, "ledger.told", "1", "1 once a gain has been told"),
+        lost_at_breaks_(scene, "ledger.lost-at-breaks", "J", "Energy that breaks have lost by the size of the step") {}
+
   /// Looks at the balance cost as much as some steps: all hundred steps at first, where most mistakes show, then all thousand.
   static bool due(std::int64_t steps) { return steps % (steps <= 1000 ? 100 : 1000) == 0; }
 
   /// After every step: work so far, and the energy that was there without any [J]. The largest counts: what a cycle has taken
   /// back was brought nevertheless.
-  void note_work(Real work, Real initial) { brought_ = std::max(brought_, std::abs(work) + std::abs(initial)); }
+  void note_work(Real work, Real initial) { brought_ = std::max<Real>(brought_, std::abs(work) + std::abs(initial)); }
 
   /// `swing`: of the scheme (Mover::swing); `noise`: no more than round-off [J].
   Verdict look(const EnergySums& sums, Real initial, Real swing, Real noise) {
     note_work(sums.worked, initial);
     const Real beyond = sums.beyond_work() - initial + lost_at_breaks_;
-    largest_swing_ = std::max(largest_swing_, swing);
-    smallest_swing_ = std::min(smallest_swing_, swing);  // where it began below zero, it comes up from there
+    largest_swing_ = std::max<Real>(largest_swing_, swing);
+    smallest_swing_ = std::min<Real>(smallest_swing_, swing);  // where it began below zero, it comes up from there
     const Real before = gained_;
     gained_ = beyond - swing + smallest_swing_;
-    deviation_ = std::max({deviation_, gained_, -largest_swing_ - beyond});
+    deviation_ = std::max<Real>({deviation_, gained_, -largest_swing_ - beyond});
     if (!(gained_ > warned_from * brought_ + noise)) return Verdict::balanced;
     return gained_ > stopped_from * brought_ + noise && gained_ > before ? Verdict::runs_away : Verdict::gains;
   }
@@ -49,16 +60,14 @@ class Ledger {
   Real deviation() const { return deviation_; }  ///< largest so far by which the balance failed to close, either way [J]
 
   /// Whether it is to be told now that energy comes from nothing: once.
-  bool tells() { return std::exchange(told_, 1) == 0; }
-
-  /// What is to be kept over a restart: f(name, number).
-  template <class F>
-  void each(const F& f) {
-    f("brought", brought_), f("gained", gained_), f("deviation", deviation_), f("swing", largest_swing_), f("swing-below", smallest_swing_), f("told", told_), f("lost-at-breaks", lost_at_breaks_);
+  bool tells() {
+    const bool first = told_ == 0;
+    told_ = 1;
+    return first;
   }
 
  private:
-  Real brought_ = 0, gained_ = 0, deviation_ = 0, largest_swing_ = 0, smallest_swing_ = 0, told_ = 0, lost_at_breaks_ = 0;
+  Kept brought_, gained_, deviation_, largest_swing_, smallest_swing_, told_, lost_at_breaks_;
 };
 
 }  // namespace beadwork

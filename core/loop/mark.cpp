@@ -27,7 +27,7 @@ Real driven_displacement(std::span<const Constraint> constraints, const std::str
 }
 
 Real driven_force(std::span<const Constraint> constraints, const std::string& set) {
-  return largest(constraints, set, [](const Constraint& c) { return c.reaction; });
+  return largest(constraints, set, [](const Constraint& c) -> Real { return c.reaction; });
 }
 
 std::optional<Real> reach_of(std::span<const Constraint> constraints, const std::string& set) {

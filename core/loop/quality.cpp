@@ -38,6 +38,43 @@ class Judge {
 
 }  // namespace
 
+WorstLoaded::WorstLoaded(Domain& domain, const std::string& name, const std::string& unit)
+    : none_(domain.scene(), "quality." + name + ".none", "1", "1 as long as no look was at anything stored"),
+      top_(domain.scene(), "quality." + name + ".top", "1", "Highest class of stored energy, a quarter of a decade each") {
+  Table& classes = domain.list("quality");
+  classes.resize(static_cast<Index>(kept));
+  for (std::size_t k = 0; k < kept; ++k)
+    worst_[k].stand_in(classes, name, unit, "Largest of a figure over looks of a class of stored energy", static_cast<Index>(k));
+  none_ = 1;
+}
+
+Quality::Quality(Domain& domain, std::size_t forces) : sound_kinetic_(domain, "sound-kinetic", "1"), sound_imbalance_(domain, "sound-imbalance", "N") {
+  const auto keep = [&](Kept& number, const char* name, const char* unit, const char* doc) {
+    number.stand_in(domain.scene(), std::string("quality.") + name, unit, doc);
+  };
+  keep(stored_, "stored", "J", "Stored energy of the last look, while it waits");
+  keep(kinetic_, "kinetic", "J", "Kinetic energy of the last look, while it waits");
+  keep(imbalance_, "imbalance", "N", "Sum of prescribed forces of the last look, while it waits");
+  keep(waits_, "waits", "1", "1 while the last look may yet count");
+  keep(over_, "over", "1", "1 once what had broken carries no more");
+  keep(slack_, "slack", "1", "1 if the last look was at a moment of little load");
+  keep(lowest_energy_, "lowest-energy", "J", "Of the looks since it is over, or of the last look");
+  keep(steps_, "steps", "1", "Steps over which prescribed forces are summed");
+  keep(largest_load_, "largest-load", "N", "Largest prescribed force so far");
+  keep(largest_stored_, "largest-stored", "J", "Largest stored energy so far");
+  keep(sound_load_, "sound-load", "N", "Largest prescribed force until something breaks");
+  keep(cracking_kinetic_, "cracking-kinetic", "1", "Largest kinetic over stored energy while it cracks");
+  keep(cracking_imbalance_, "cracking-imbalance", "1", "Largest sum of prescribed forces over the largest of them while it cracks");
+  keep(free_motion_, "free-motion", "m", "Farthest that something moved as nothing holds it");
+  keep(prescribed_, "prescribed", "m", "Farthest prescribed displacement till then");
+  keep(flown_, "flown", "J", "Largest kinetic energy that was given");
+  keep(at_rest_, "at-rest", "1", "1 if the last look found equilibrium");
+  Table& list = domain.list("prescribed-forces");
+  list.resize(static_cast<Index>(forces));
+  follow(forces);
+  for (std::size_t k = 0; k < forces; ++k) sums_[k].stand_in(list, "sum", "N", "Sum over steps of a prescribed force", static_cast<Index>(k));
+}
+
 void Quality::look(const QualityLook& seen) {
   if (!seen.broken) return look_sound(seen);
   at_rest_ = 0;
@@ -49,13 +86,13 @@ void Quality::look(const QualityLook& seen) {
   slack_ = seen.load < loaded_from * largest_load_ ? 1 : 0;
   if (slack_ != 0) return;  // nothing to be seen at this moment; whether the test is over the next look tells
   settle();
-  stored_ = seen.stored, kinetic_ = seen.kinetic, load_ = seen.load, imbalance_ = seen.imbalance, waits_ = 1;
+  stored_ = seen.stored, kinetic_ = seen.kinetic, imbalance_ = seen.imbalance, waits_ = 1;
 }
 
 void Quality::look_sound(const QualityLook& seen) {
-  largest_stored_ = std::max(largest_stored_, seen.stored);
+  largest_stored_ = std::max<Real>(largest_stored_, seen.stored);
   lowest_energy_ = seen.stored + seen.kinetic;
-  sound_load_ = std::max(sound_load_, seen.load);
+  sound_load_ = std::max<Real>(sound_load_, seen.load);
   sound_kinetic_.note(seen.stored, share(seen.kinetic, seen.stored));
   sound_imbalance_.note(seen.stored, seen.imbalance);
   at_rest_ = seen.stored > 0 && seen.kinetic <= quality_limits::kinetic * seen.stored && seen.imbalance <= quality_limits::imbalance * seen.load ? 1 : 0;
@@ -69,7 +106,7 @@ void Quality::heed_load(const QualityLook& seen) {
     over_ = 0;
   else if (enough && mean_load() < loaded_from * largest_load_)
     over_ = 1;
-  lowest_energy_ = over_ != 0 ? std::min(lowest_energy_, energy) : energy;
+  lowest_energy_ = over_ != 0 ? std::min<Real>(lowest_energy_, energy) : energy;
   if (enough) forget_load();
 }
 
@@ -79,26 +116,34 @@ Real Quality::mean_load() const {
   return largest / steps_;
 }
 
+// A look after the first break counts only when the next one finds that it was not over yet.
 void Quality::settle() {
   if (waits_ == 0) return;
+  const Cracking worst = cracking();
+  cracking_kinetic_ = worst.kinetic, cracking_imbalance_ = worst.imbalance;
+  largest_stored_ = stored_by_now();
   waits_ = 0;
-  largest_stored_ = std::max(largest_stored_, stored_);
-  if (stored_ < loaded_from * largest_stored_) return;
-  cracking_kinetic_ = std::max(cracking_kinetic_, share(kinetic_, stored_));
-  cracking_imbalance_ = std::max(cracking_imbalance_, share(imbalance_, largest_load_));
+}
+
+Real Quality::stored_by_now() const { return std::max<Real>(largest_stored_, stored_); }
+
+// With the look that waits.
+Quality::Cracking Quality::cracking() const {
+  Cracking worst{cracking_kinetic_, cracking_imbalance_};
+  if (waits_ == 0 || stored_ < loaded_from * stored_by_now()) return worst;
+  return {std::max(worst.kinetic, share(kinetic_, stored_)), std::max(worst.imbalance, share(imbalance_, largest_load_))};
 }
 
 void Quality::tell(QualityFigures& figures, Real mean_radius) const {
-  Quality whole = *this;
-  if (slack_ == 0) whole.settle();
+  const Cracking worst = slack_ == 0 ? cracking() : Cracking{cracking_kinetic_, cracking_imbalance_};
   figures.at_rest = at_rest_ != 0;
   figures.unseen = sound_kinetic_.none();
   figures.kinetic = sound_kinetic_.worst();
   figures.imbalance = share(sound_imbalance_.worst(), sound_load_);
-  figures.kinetic_cracking = whole.cracking_kinetic_;
-  figures.imbalance_cracking = whole.cracking_imbalance_;
+  figures.kinetic_cracking = worst.kinetic;
+  figures.imbalance_cracking = worst.imbalance;
   figures.free_motion = free_motion_;
-  figures.free_motion_share = share(free_motion_, prescribed_ > 0 ? prescribed_ : mean_radius);
+  figures.free_motion_share = share(free_motion_, prescribed_ > 0 ? Real(prescribed_) : mean_radius);
 }
 
 QualityVerdict judged(const QualityFigures& f) {

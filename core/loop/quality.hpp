@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/types.hpp"
+#include "core/domain/domain.hpp"
+#include "core/domain/kept.hpp"
 
 namespace beadwork {
 
@@ -63,32 +64,30 @@ inline constexpr Real free_motion = 0.05, free_motion_poor = 0.5;
 /// been in the end. Looks go by their stored energy into classes, a quarter of a decade each, of which the highest few are kept.
 class WorstLoaded {
  public:
+  WorstLoaded() { none_ = 1; }
+  /// Keeps its numbers in columns of this name of the scene, and in the list of its classes.
+  WorstLoaded(Domain& domain, const std::string& name, const std::string& unit);
   void note(Real stored, Real figure) {
     if (!(stored > 0)) return;
     const Real of = std::floor(4 * std::log10(stored));
     if (none_ != 0 || of > top_) {
       const auto rise = none_ != 0 ? kept : static_cast<std::size_t>(std::min<Real>(of - top_, kept));
-      for (std::size_t k = kept; k-- > 0;) worst_[k] = k >= rise ? worst_[k - rise] : 0;
+      for (std::size_t k = kept; k-- > 0;) worst_[k] = k >= rise ? Real(worst_[k - rise]) : 0;
       top_ = of;
       none_ = 0;
     }
     if (top_ - of < static_cast<Real>(kept)) {
-      Real& worst = worst_[static_cast<std::size_t>(top_ - of)];
-      worst = std::max(worst, figure);
+      Kept& worst = worst_[static_cast<std::size_t>(top_ - of)];
+      worst = std::max<Real>(worst, figure);
     }
   }
   Real worst() const { return *std::max_element(worst_.begin(), worst_.end()); }
   bool none() const { return none_ != 0; }  ///< no look was at anything stored
-  template <class F>
-  void each(const std::string& name, const F& f) {
-    f(name + ".none", none_), f(name + ".top", top_);
-    for (std::size_t k = 0; k < kept; ++k) f(name + "." + std::to_string(k), worst_[k]);
-  }
 
  private:
   static constexpr std::size_t kept = 4;
-  Real none_ = 1, top_ = 0;
-  std::array<Real, kept> worst_{};
+  Kept none_, top_;
+  std::array<Kept, kept> worst_;
 };
 
 QualityVerdict judged(const QualityFigures& figures);
@@ -100,62 +99,58 @@ nlohmann::ordered_json quality_json(const QualityFigures& figures);
 /// counts only when the next one finds that it was not over yet.
 class Quality {
  public:
+  Quality() = default;
+  /// Keeps its numbers in the scene, for so many prescribed forces.
+  Quality(Domain& domain, std::size_t forces);
+
   void look(const QualityLook& seen);
   /// Makes room for so many prescribed forces.
-  void follow(std::size_t forces) { sums_.resize(std::max(forces, sums_.size()), 0); }
+  void follow(std::size_t forces) { sums_.resize(std::max(forces, sums_.size())); }
   /// At every step: force(k) of `count` prescribed ones [N].
   template <class Force>
   void note_load(std::size_t count, const Force& force, bool broken) {
     for (std::size_t k = 0; k < count; ++k) {
-      largest_load_ = std::max(largest_load_, std::abs(force(k)));
+      largest_load_ = std::max<Real>(largest_load_, std::abs(force(k)));
       if (broken) sums_[k] += force(k);
     }
-    if (broken) ++steps_;
+    if (broken) steps_ += 1;
   }
   /// At the start of a stage: what was given to fly [J]. Forces are others from now on.
   void note_start(Real kinetic) {
-    flown_ = std::max(flown_, kinetic);
+    flown_ = std::max<Real>(flown_, kinetic);
     forget_load();
   }
   /// How far what nothing holds has moved, while what is prescribed has moved as far as `prescribed` [m].
   void note_free_motion(Real moved, Real prescribed) {
-    free_motion_ = std::max(free_motion_, moved);
-    prescribed_ = std::max(prescribed_, prescribed);
+    free_motion_ = std::max<Real>(free_motion_, moved);
+    prescribed_ = std::max<Real>(prescribed_, prescribed);
   }
 
   /// Fills in what was gathered here.
   void tell(QualityFigures& figures, Real mean_radius) const;
   Real flown() const { return flown_; }
 
-  /// What is to be kept over a restart: f(name, number).
-  template <class F>
-  void each(const F& f) {
-    f("stored", stored_), f("kinetic", kinetic_), f("load", load_), f("imbalance", imbalance_), f("waits", waits_);
-    f("over", over_), f("slack", slack_), f("lowest-energy", lowest_energy_), f("steps", steps_);
-    for (std::size_t k = 0; k < sums_.size(); ++k) f("sum." + std::to_string(k), sums_[k]);
-    f("largest-load", largest_load_), f("sound-load", sound_load_);
-    sound_kinetic_.each("sound-kinetic", f), sound_imbalance_.each("sound-imbalance", f);
-    f("cracking-kinetic", cracking_kinetic_), f("cracking-imbalance", cracking_imbalance_);
-    f("largest-stored", largest_stored_), f("free-motion", free_motion_), f("prescribed", prescribed_), f("flown", flown_), f("at-rest", at_rest_);
-  }
-
  private:
+  struct Cracking {
+    Real kinetic, imbalance;
+  };
   void look_sound(const QualityLook& seen);
   void heed_load(const QualityLook& seen);
   void settle();
+  Real stored_by_now() const;
+  Cracking cracking() const;
   Real mean_load() const;
   void forget_load() { std::fill(sums_.begin(), sums_.end(), 0), steps_ = 0; }
 
-  Real stored_ = 0, kinetic_ = 0, load_ = 0, imbalance_ = 0, waits_ = 0;  // the last look that may count, while it waits
-  Real over_ = 0, slack_ = 0;                                            // the test is over; the last look was at a moment of little load
-  Real lowest_energy_ = 0;                                               // of the looks since it is over, or of the last look [J]
-  std::vector<Real> sums_;                                               // of each prescribed force, over the steps since a look [N]
-  Real steps_ = 0;
-  Real largest_load_ = 0, largest_stored_ = 0;
-  Real sound_load_ = 0;
+  Kept stored_, kinetic_, imbalance_, waits_;  // the last look that may count, while it waits
+  Kept over_, slack_;                          // the test is over; the last look was at a moment of little load
+  Kept lowest_energy_;                         // of the looks since it is over, or of the last look [J]
+  std::vector<Kept> sums_;                     // of each prescribed force, over the steps since a look [N]
+  Kept steps_;
+  Kept largest_load_, largest_stored_, sound_load_;
   WorstLoaded sound_kinetic_, sound_imbalance_;  // ratios; sums of forces [N]
-  Real cracking_kinetic_ = 0, cracking_imbalance_ = 0;
-  Real free_motion_ = 0, prescribed_ = 0, flown_ = 0, at_rest_ = 0;
+  Kept cracking_kinetic_, cracking_imbalance_;
+  Kept free_motion_, prescribed_, flown_, at_rest_;
 };
 
 }  // namespace beadwork

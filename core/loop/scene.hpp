@@ -60,6 +60,8 @@ class Scene {
   std::set<const Plugin*> section_readers;                        ///< plugins that read what bond laws offer of each bond
   std::map<const Derived*, std::set<const Plugin*>> derived_for;  ///< who reads a derived field, through others too
 
+  /// Points the views of all plugins at the columns of the domain: whenever these may have moved.
+  void bind() const;
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;

@@ -50,25 +50,27 @@ std::string mode_of(const Failure& criterion, const RunFigures& figures) {
 }
 
 // How near to breaking the run came, by criterion.
-Json utilisation(const RunFigures& figures) {
+Json utilisation(const RunState& state, const RunFigures& figures) {
   Json all = Json::object();
-  for (const auto& [criterion, use] : figures.largest_uses) {
+  for (const auto& [criterion, use] : state.uses) {
     Json& one = all[criterion->id()];
-    one = {{"of", criterion->family()}, {"mode", mode_of(*criterion, figures)}, {"largest", use.value}};
+    one = {{"of", criterion->family()}, {"mode", mode_of(*criterion, figures)}, {"largest", Real(use.value)}};
     if (!use.is_there()) continue;
     one["step"] = std::llround(use.step);
-    one["time"] = use.time;
+    one["time"] = Real(use.time);
     one["bond"] = std::llround(use.bond);
     one["elements"] = {std::llround(use.first), std::llround(use.second)};
-    one["place"] = {use.x, use.y, use.z};
+    one["place"] = {Real(use.x), Real(use.y), Real(use.z)};
   }
   return all;
 }
 
 }  // namespace
 
-std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const FreeMotions& free, const Moment& moment, int threads, const Sight& sight) {
-  const Domain& domain = sight.domain();
+std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files, const RunFigures& figures, int threads) {
+  const Scene& scene = state.scene;
+  const Moment& moment = state.moment;
+  const Domain& domain = state.domain();
   Json json;
   json["name"] = scene.name;
   json["status"] = figures.status;
@@ -94,18 +96,18 @@ std::string summary_json(const Scene& scene, const FileSums& files, const RunFig
   json["bond_updates_per_second"] = figures.loop_seconds > 0 ? figures.bond_updates / figures.loop_seconds : 0;
   Terms terms;
   try {
-    sight.energies(terms);
-    json["energy"] = terms.json(sight.initial_energy());
+    balance.energies(terms);
+    json["energy"] = terms.json(state.initial_energy);
   } catch (const PhysicsFailure&) {
     if (figures.status != "failed") throw;  // of a plugin that failed the energies need not be known
   }
   json["quality"] = quality_json(figures.quality);
-  json["quality"]["free_bodies"] = free.json();
+  json["quality"]["free_bodies"] = balance.free_motions().json();
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;
   for (const Break& b : log.breaks) json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] = json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
-  json["utilisation"] = utilisation(figures);
+  json["utilisation"] = utilisation(state, figures);
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));
   if (!figures.notes.empty()) json["notes"] = figures.notes;

@@ -3,12 +3,11 @@
 
 #include <string>
 
-#include "core/loop/run.hpp"
-#include "core/loop/same_deck.hpp"
+#include "core/loop/record.hpp"
 
 namespace beadwork {
 
-std::string summary_json(const Scene& scene, const FileSums& files, const RunFigures& figures, const FreeMotions& free, const Moment& moment, int threads, const Sight& sight);
+std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files, const RunFigures& figures, int threads);
 std::string curve_json(const CurvePlan& plan);
 
 }  // namespace beadwork

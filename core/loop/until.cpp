@@ -180,14 +180,14 @@ std::vector<Until::Prospect> Until::prospects(std::span<const Constraint> constr
 std::vector<Peak> peaks_of(std::span<const Constraint> constraints) {
   std::vector<Peak> peaks;
   for (const Constraint& c : constraints)
-    if (c.driven && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; })) peaks.push_back({c.set, 0, 0});
+    if (c.driven && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; })) peaks.push_back({c.set, {}, {}});
   return peaks;
 }
 
 void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Constraint> constraints) {
   for (Peak& peak : peaks) {
-    peak.force = std::max(peak.force, driven_force(constraints, peak.set));
-    peak.displacement = std::max(peak.displacement, driven_displacement(constraints, peak.set, moment.stage_start, moment.time));
+    peak.force = std::max<Real>(peak.force, driven_force(constraints, peak.set));
+    peak.displacement = std::max<Real>(peak.displacement, driven_displacement(constraints, peak.set, moment.stage_start, moment.time));
   }
 }
 

@@ -13,8 +13,8 @@ namespace beadwork {
 /// The largest that a stage has seen of a driven set.
 struct Peak {
   std::string set;
-  Real force = 0;         ///< [N]
-  Real displacement = 0;  ///< since the stage began [m]
+  Kept force;         ///< [N]
+  Kept displacement;  ///< since the stage began [m]
 };
 std::vector<Peak> peaks_of(std::span<const Constraint> constraints);
 void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Constraint> constraints);

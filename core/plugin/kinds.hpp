@@ -9,7 +9,10 @@
 #include <span>
 
 #include "core/base/headway.hpp"
+#include "core/base/log.hpp"
 #include "core/base/parallel.hpp"
+#include "core/domain/kept.hpp"
+#include "core/domain/moment.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/mechanics/stiffness.hpp"
 #include "core/plugin/blame.hpp"
@@ -17,23 +20,12 @@
 
 namespace beadwork {
 
-/// Where the run stands.
-struct Moment {
-  Real time = 0;  ///< [s]
-  std::int64_t step = 0;
-  Real time_step = 0;  ///< [s]
-  int stage = 0;
-  Real stage_start = 0;         ///< [s]
-  std::int64_t stage_step = 0;  ///< step at which the stage began
-};
-
 // ---------------------------------------------------------------------------------------------------- fill
 
 /// What a filling plugin is told and may say.
 struct FillJob {
-  std::uint64_t seed = 0;
-  std::function<void(const std::string&)> say;  ///< a line for the log
-  std::function<void(const std::string&)> warn;
+  std::uint64_t seed;
+  const Log& log;
   std::function<void(const std::string& json)> report;  ///< a packing report, a JSON object
   /// To be called now and then in long work: throws Interrupted if the user wants to stop.
   std::function<void()> pause = [] {};
@@ -149,8 +141,8 @@ struct Constraint {
   std::function<PrescribedMotion(Real)> motion;  ///< displacement, velocity, acceleration by the time since it began
   Real reach = std::numeric_limits<Real>::infinity();  ///< farthest that it ever gets from where it has been [m]
   Real began = 0;                                ///< start of the first stage in which the load stands [s]
-  Real reaction = 0;                             ///< sum of the forces that keep it, at the last accepted step [N]
-  Real work = 0;                                 ///< of these forces so far [J]
+  Kept reaction;                                 ///< sum of the forces that keep it, at the last accepted step [N]
+  Kept work;                                     ///< of these forces so far [J]
 
   /// Throws PhysicsFailure, with the load's place in the deck, if the motion fails or is no number.
   PrescribedMotion at(Real time) const;
@@ -184,10 +176,7 @@ class Workings {
   virtual void evaluate(bool settle) = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<BondLaw*, BondTable*>> laws() const = 0;
-  virtual void say(const std::string& line) = 0;
-  virtual void warn(const std::string& line) = 0;
-  /// For what may come again and again: of all lines on one subject the first is said, and the newest at the end of the run.
-  virtual void say_once(const std::string& subject, const std::string& line) = 0;
+  virtual Log& log() = 0;
 };
 
 class Mover : public Plugin {

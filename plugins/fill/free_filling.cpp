@@ -45,9 +45,9 @@ class FreeFilling final : public ElementMaker {
     if (around.given()) note_obstacles(domain, request.around);
     guarded(*this, [&] {
       packing::Packing packing = packing::free_filling(request);
-      for (const std::string& warning : packing.warnings) job.warn(warning);
+      for (const std::string& warning : packing.warnings) job.log.warn(warning);
       const Index first = add_spheres(domain, packing.position, packing.radius);
-      job.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
+      job.log.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
       const auto rows = static_cast<Index>(packing.position.size());
       begun_ = std::make_shared<PackingInProgress>(PackingInProgress{std::move(packing), *density, first, rows});
       (*job.in_progress)[*set] = begun_;
@@ -58,7 +58,7 @@ class FreeFilling final : public ElementMaker {
     const auto begun = std::exchange(begun_, nullptr);  // the memory is needed for the run
     const std::size_t placed = begun->packing.position.size(), waiting = begun->packing.waiting.size();
     if (waiting > 0)
-      job.warn(fmt::format("{}: only {} of {} elements found a place without overlap; <forced-filling set=\"{}\"/> places the rest", at().where(),
+      job.log.warn(fmt::format("{}: only {} of {} elements found a place without overlap; <forced-filling set=\"{}\"/> places the rest", at().where(),
                            placed, placed + waiting, *set));
   }
 

@@ -50,11 +50,11 @@ class PackingStep : public SphereFiller {
     progress.packing.pause = job.pause;
     progress.packing.tell = teller(job, *this, *set);
     guarded(*this, [&] { go_on(progress.packing); });
-    for (std::size_t w = before; w < progress.packing.warnings.size(); ++w) job.warn(progress.packing.warnings[w]);
+    for (std::size_t w = before; w < progress.packing.warnings.size(); ++w) job.log.warn(progress.packing.warnings[w]);
     place(domain, progress);
     const auto report = packing::report(progress.packing);
     job.report(packing_json(*set, tag(), report, PackingSource::filling));
-    job.say(fmt::format("{}: {} elements, {}, {:.1f} s", tag(), report.count, packing_words(report), report.seconds));
+    job.log.say(fmt::format("{}: {} elements, {}, {:.1f} s", tag(), report.count, packing_words(report), report.seconds));
   }
 
  protected:

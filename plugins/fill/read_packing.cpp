@@ -40,7 +40,7 @@ class ReadPacking final : public ElementMaker {
   void fill(Domain& domain, const FillJob& job) override {
     const auto start = std::chrono::steady_clock::now();
     const StoredPacking packing = stored(*file, job.pause);
-    for (const std::string& warning : packing.warnings) job.warn(warning);
+    for (const std::string& warning : packing.warnings) job.log.warn(warning);
     const Index first = add_spheres(domain, packing.position, packing.radius);
     keep_sets(domain, packing, first, job);
     packing::Packing whole = packing::packing_of(around(packing), spread_of(packing), packing.position, packing.radius);
@@ -68,7 +68,7 @@ class ReadPacking final : public ElementMaker {
     std::vector<std::string> left;
     for (const auto& each : packing.sets)
       if (std::find(sets->begin(), sets->end(), each.first) == sets->end() && !(of.given() && each.first == *of) && each.first != *set) left.push_back(each.first);
-    if (!left.empty()) job.say(fmt::format("{}: sets of {} that are not made here: {}; sets=\"...\" makes those that it names", tag(), *file, join(left)));
+    if (!left.empty()) job.log.say(fmt::format("{}: sets of {} that are not made here: {}; sets=\"...\" makes those that it names", tag(), *file, join(left)));
     for (const std::string& name : *sets) {
       if (name == *set) refuse(sets.at(name), fmt::format("set '{}' holds all that are read: leave it out here, or give 'set' another name", name));
       Set& members = domain.sets()[name];
@@ -104,9 +104,9 @@ class ReadPacking final : public ElementMaker {
     constexpr Real deep = 0.05;
     const auto report = packing::report(packing);
     job.report(packing_json(*set, tag(), report, PackingSource::file));
-    job.say(fmt::format("{}: {} elements from {}, {}", tag(), report.count, *file, packing_words(report)));
+    job.log.say(fmt::format("{}: {} elements from {}, {}", tag(), report.count, *file, packing_words(report)));
     if (report.max_overlap > deep)
-      job.warn(fmt::format("{}: elements overlap by up to {:.2g} of the sum of their radii; if that is not meant, look whether the sizes in {} are "
+      job.log.warn(fmt::format("{}: elements overlap by up to {:.2g} of the sum of their radii; if that is not meant, look whether the sizes in {} are "
                            "radii or diameters, and in which unit", file.at().where(), report.max_overlap, *file));
   }
 };

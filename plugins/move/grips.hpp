@@ -40,7 +40,7 @@ class Grips {
       if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, when);
       sets_.push_back(c.grip == Grip::mean ? without_debris(all, body) : all);
       if (sets_.back().size() < all.size())
-        w.say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong to a small fragment, and are left out of its mean",
+        w.log().say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong to a small fragment, and are left out of its mean",
                                                    all.size() - sets_.back().size(), all.size(), c.set));
       axes_.push_back(c.axis);
       averages_.push_back(c.grip == Grip::mean);

@@ -68,21 +68,21 @@ class Verlet final : public Mover {
     seen_breaks_ = static_cast<std::size_t>(std::count_if(breaks.begin(), breaks.end(), [&](const Break& b) { return !resumed || b.step < w.moment().step; }));
     if (*bond_damping > 0) {
       dashpots_.prepare(w, *bond_damping, mass.view(), inertia.view(), resumed);
-      if (!dashpots_.any()) w.warn(fmt::format("{}: 'bond-damping' has no effect here: no bonds, or only such as soften", bond_damping.at().where()));
+      if (!dashpots_.any()) w.log().warn(fmt::format("{}: 'bond-damping' has no effect here: no bonds, or only such as soften", bond_damping.at().where()));
     }
     if (in_single() && std::none_of(w.laws().begin(), w.laws().end(), [](const auto& l) { return l.first->can_be_single(); }))
-      w.warn(fmt::format("{}: 'precision' has no effect here: no bonds whose forces can be found in single precision", precision.at().where()));
+      w.log().warn(fmt::format("{}: 'precision' has no effect here: no bonds whose forces can be found in single precision", precision.at().where()));
     if (!resumed) {
       step_ = largest_step(w);
       const Real largest = step_.time_step;
       w.moment().time_step = fixed_step.given() ? *fixed_step : *safety * largest;
       if (!std::isfinite(w.moment().time_step))
         refuse(at(), "the bonds of this stage are none, or without stiffness, so nothing limits the time step: give 'time-step'");
-      w.say(std::isfinite(largest) ? fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step,
+      w.log().say(std::isfinite(largest) ? fmt::format("time step {:.4g} s, {:.3g} of the largest stable one; {}", w.moment().time_step,
                                                  w.moment().time_step / largest, step_.by)
                                    : fmt::format("time step {:.4g} s; {}", w.moment().time_step, step_.by));
       if (w.moment().time_step > largest)
-        w.warn(fmt::format("{}: 'time-step' is {:.4g} s, the largest stable one {:.4g} s; a run that gains energy by it is stopped",
+        w.log().warn(fmt::format("{}: 'time-step' is {:.4g} s, the largest stable one {:.4g} s; a run that gains energy by it is stopped",
                            fixed_step.at().where(), w.moment().time_step, largest));
       stable[0] = largest;
       grips_.seize(w, places(), turns(), *beta);

@@ -89,12 +89,12 @@ class Case:
             for name in sorted(names[0] & names[1]):
                 if name.split("/")[-1] in WALL_CLOCK or name == "meta/resolved" or name.startswith("meta/value"):
                     continue
-                if not alike and name.startswith("scene/last-look."):  # at which step each watcher looked last
+                if not alike and name == "lists/watchers/last-look":  # at which step each watcher looked last
                     continue
                 left, right = a[name][()], b[name][()]
                 if numpy.asarray(left).tobytes() != numpy.asarray(right).tobytes():
                     differences.append(f"{name}: {count_of(left, right)}")
-            for name in ("time", "step", "stage"):
+            for name in ("time", "step", "stage", "time-step", "stage-start", "stage-step"):
                 if a["meta"].attrs[name] != b["meta"].attrs[name]:
                     differences.append(f"{name}: {a['meta'].attrs[name]} and {b['meta'].attrs[name]}")
             damaged = any((family["state"][()] > 0).any() for family in a["bonds"].values()) if "bonds" in a else False

@@ -38,7 +38,7 @@ void make(const fs::path& root, bool finished) {
   }
   std::string reason;
   if (finished && !recorder.consolidate(domain, reason)) throw MachineFailure(reason);
-  save_checkpoint(folder.checkpoint(), domain, {"0.1.0", "5e88", about.resolved, 0, 1e-5, 100, 7, {{"packing", about.packing}}});
+  save_checkpoint(folder.checkpoint(), domain, {"0.1.0", "5e88", about.resolved, {1e-5, 100, 1e-7, 0, 0, 0}, 7, {{"packing", about.packing}}});
   folder.claim(folder.curve("force"));
   folder.claim(root / "curves/force.json");
   Curve curve = Curve::fresh(folder.curve("force"), {{"time", "s"}, {"force", "N"}});
@@ -71,7 +71,7 @@ void load(const fs::path& root, Domain& domain) {
   declare_bar(domain);
   const CheckpointMeta meta = read_checkpoint_meta(root / "checkpoint.h5");
   load_checkpoint(root / "checkpoint.h5", domain);
-  if (meta.stage > 0) throw MachineFailure("there is one stage");
+  if (meta.moment.stage > 0) throw MachineFailure("there is one stage");
   domain.cut_families();
   domain.clear_loads();
   domain.gather();

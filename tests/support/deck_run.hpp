@@ -70,8 +70,7 @@ inline DeckRun run_deck(const std::string& text) {
   complaints.throw_if_any();
   RunFolder folder = RunFolder::fresh(scratch / "out", false);
   RunOptions options;
-  options.say = [&](const std::string& line) { done.said.push_back(line); };
-  options.warn = [&](const std::string& line) { done.warned.push_back(line); };
+  options.log = Log([&](const std::string& line) { done.said.push_back(line); }, [&](const std::string& line) { done.warned.push_back(line); });
   {
     Run run(*scene, catalogue, folder, options);
     try {

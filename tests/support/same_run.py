@@ -31,6 +31,6 @@ def differences(one, other):
         if (one / name).read_bytes() != (other / name).read_bytes():
             found.append(f"{name} differs")
     for file, group in (("run.h5", "frames"), ("run.h5", "breaks"), ("run.h5", "sets"), ("checkpoint.h5", "elements"),
-                        ("checkpoint.h5", "bonds"), ("checkpoint.h5", "scene")):
+                        ("checkpoint.h5", "bonds"), ("checkpoint.h5", "scene"), ("checkpoint.h5", "lists")):
         found += differences_of_groups(one, other, file, group)
     return found

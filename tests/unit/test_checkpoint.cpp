@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 CheckpointMeta some_meta(std::int64_t step = 4200) {
-  return {"0.1.0", "5e884898da28", "<scene name=\"bar\"/>", 1, 0.1 + 0.2, step, 18446744073709551615u, {{"seed state", "a b c"}}};
+  return {"0.1.0", "5e884898da28", "<scene name=\"bar\"/>", {0.1 + 0.2, step, 0.1, 1, 0.3, step / 2}, 18446744073709551615u, {{"seed state", "a b c"}}};
 }
 
 struct Bar {
@@ -93,6 +93,24 @@ TEST(Checkpoint, everything_kept_comes_back_to_the_bit) {
   expect_same_domain(bar.domain, back.domain);
 }
 
+TEST(Checkpoint, what_the_scene_lists_comes_back_and_must_be_as_long) {
+  const Scratch scratch;
+  const auto list_work = [](Domain& domain, Index rows) {
+    domain.list("constraints").resize(rows);
+    return domain.list("constraints").add({"work", On::scene, Type::real, "J", "Work", ""}).keep(), domain.list("constraints").column("work").view<Real>();
+  };
+  Bar bar(3), back, longer;
+  const auto work = list_work(bar.domain, 2);
+  work[0] = 1.5, work[1] = -0.1;
+  save_checkpoint(scratch / "c.h5", bar.domain, some_meta());
+  const auto got = list_work(back.domain, 2);
+  load_checkpoint(scratch / "c.h5", back.domain);
+  EXPECT_EQ(got[0], 1.5);
+  EXPECT_EQ(got[1], -0.1);
+  list_work(longer.domain, 3);
+  EXPECT_NE(beadwork::testing::message_of<DeckFailure>([&] { load_checkpoint(scratch / "c.h5", longer.domain); }).find("does not list the 3 constraints"), std::string::npos);
+}
+
 TEST(Checkpoint, numbers_that_are_no_numbers_keep_their_bits_too) {
   const Scratch scratch;
   Bar bar(4);
@@ -119,9 +137,13 @@ TEST(Checkpoint, what_is_known_of_the_run_comes_back) {
   EXPECT_EQ(got.version, meta.version);
   EXPECT_EQ(got.deck_sha256, meta.deck_sha256);
   EXPECT_TRUE(got.resolved == meta.resolved);
-  EXPECT_EQ(got.stage, meta.stage);
-  EXPECT_EQ(std::bit_cast<std::uint64_t>(got.time), std::bit_cast<std::uint64_t>(meta.time));
-  EXPECT_EQ(got.step, meta.step);
+  const auto bits = [](Real number) { return std::bit_cast<std::uint64_t>(number); };
+  EXPECT_EQ(got.moment.stage, meta.moment.stage);
+  EXPECT_EQ(bits(got.moment.time), bits(meta.moment.time));
+  EXPECT_EQ(got.moment.step, meta.moment.step);
+  EXPECT_EQ(bits(got.moment.time_step), bits(meta.moment.time_step));
+  EXPECT_EQ(bits(got.moment.stage_start), bits(meta.moment.stage_start));
+  EXPECT_EQ(got.moment.stage_step, meta.moment.stage_step);
   EXPECT_EQ(got.seed, meta.seed);
   EXPECT_EQ(got.texts, meta.texts);
 }
@@ -306,7 +328,7 @@ TEST(Checkpoint, a_kill_at_any_moment_leaves_a_whole_checkpoint) {
         3000 + 1900 * trial);
     Bar back;
     ASSERT_NO_THROW(load_checkpoint(file, back.domain)) << "trial " << trial;
-    newest = read_checkpoint_meta(file).step;
+    newest = read_checkpoint_meta(file).moment.step;
     EXPECT_EQ(back.domain.scene().column("work").view<Real>()[0], static_cast<Real>(newest)) << "trial " << trial;
     EXPECT_EQ(back.domain.size(), 5000);
   }
@@ -323,6 +345,6 @@ TEST(Checkpoint, a_full_disk_leaves_the_former_checkpoint_and_is_named) {
   const auto said = message_of<MachineFailure>([&] { save_checkpoint(file, large.domain, some_meta(2)); });
   EXPECT_THAT(said, HasSubstr("No space left on device"));
   EXPECT_THAT(said, HasSubstr("checkpoint.h5"));
-  EXPECT_EQ(read_checkpoint_meta(file).step, 1);
+  EXPECT_EQ(read_checkpoint_meta(file).moment.step, 1);
   EXPECT_FALSE(fs::exists(part_of(file)));
 }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
+#include "core/domain/domain.hpp"
 
 namespace beadwork {
 namespace {
@@ -66,14 +66,13 @@ TEST(Ledger, knows_what_a_break_costs_by_the_size_of_the_step) {
 }
 
 TEST(Ledger, is_the_same_after_a_restart) {
-  Ledger before, after;
+  Domain domain;
+  Ledger before(domain.scene());
   before.look(sums(2, 2.5), 0.1, 0.01, 0);
   before.tells();
   before.note_break(0, 0.2);
-  std::vector<Real> kept;
-  before.each([&](const char*, Real& number) { kept.push_back(number); });
-  auto next = kept.begin();
-  after.each([&](const char*, Real& number) { number = *next++; });
+  for (const Column* column : domain.scene().columns()) EXPECT_TRUE(column->kept()) << column->field().name;
+  Ledger after(domain.scene());
   EXPECT_EQ(after.brought(), before.brought());
   EXPECT_EQ(after.gained(), before.gained());
   EXPECT_EQ(after.deviation(), before.deviation());

@@ -6,12 +6,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/io/checkpoint.hpp"
+#include "tests/support/scratch.hpp"
+
 namespace beadwork {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::Scratch;
 
 QualityFigures told(const Quality& quality) {
   QualityFigures figures;
@@ -121,17 +125,17 @@ TEST(Quality, goes_on_where_nothing_broke_and_the_load_is_taken_off) {
 }
 
 TEST(Quality, is_the_same_after_a_restart) {
-  Quality before, after;
-  after.follow(1);
+  const Scratch scratch;
+  Domain saved, loaded;
+  Quality before(saved, 1);
   note(before, 200, false);
   before.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
   before.look({.stored = 300, .kinetic = 6, .load = 150, .imbalance = 3, .broken = true});
   note(before, 15, true, 60);
   before.note_free_motion(2, 8);
-  std::vector<Real> kept;
-  before.each([&](const std::string&, Real& number) { kept.push_back(number); });
-  auto next = kept.begin();
-  after.each([&](const std::string&, Real& number) { number = *next++; });
+  save_checkpoint(scratch / "c.h5", saved, {});
+  Quality after(loaded, 1);
+  load_checkpoint(scratch / "c.h5", loaded);
   EXPECT_EQ(quality_json(told(after)).dump(), quality_json(told(before)).dump());
   EXPECT_EQ(told(after).free_motion_share, 0.25);
   for (Quality* each : {&before, &after}) {

@@ -61,7 +61,7 @@ TEST(Run, has_a_first_checkpoint_long_before_the_second) {
   options.first_checkpoint_seconds = 0.1;
   testing::kill_during([&] { run_deck(scratch / "deck.xml", scratch / "early", options); }, 3'000'000);
   ASSERT_TRUE(std::filesystem::exists(scratch / "early/checkpoint.h5"));
-  EXPECT_LT(read_checkpoint_meta(scratch / "early/checkpoint.h5").time, 10);  // some 60 s are reached in the three of the clock
+  EXPECT_LT(read_checkpoint_meta(scratch / "early/checkpoint.h5").moment.time, 10);  // some 60 s are reached in the three of the clock
   options.first_checkpoint_seconds = 600;
   testing::kill_during([&] { run_deck(scratch / "deck.xml", scratch / "late", options); }, 1'000'000);
   EXPECT_TRUE(std::filesystem::exists(scratch / "late/summary.json"));

@@ -1,23 +1,24 @@
+// A run that is begun to see what it costs.
+
 #include <algorithm>
 
-#include "core/loop/blame.hpp"
+#include "core/loop/filling.hpp"
 #include "core/loop/run.hpp"
 
 namespace beadwork {
 
 Trial Run::trial(Real seconds) {
-  const auto since = [](Clock::time_point start) { return std::chrono::duration<Real>(Clock::now() - start).count(); };
-  watched_ = false;
   const auto begin = Clock::now();
-  fill();
-  enter(stage(), false);
+  fill(state_, options_, record_.figures().packing_reports);
+  begin_stage();
+  looks_.pass();
   Trial trial;
-  trial.fill_seconds = since(begin);
-  trial.time_step = moment_.time_step;
-  trial.limited_by = stage().mover().limited_by();
-  open_record();
+  trial.fill_seconds = std::chrono::duration<Real>(Clock::now() - begin).count();
+  trial.time_step = state_.moment.time_step;
+  trial.limited_by = state_.mover().limited_by();
+  record_.open();
   trial.seconds_per_step = try_steps(seconds, trial.steps);
-  for (Watcher* watcher : stage().watchers) trial.seconds_per_look.emplace_back(watcher, try_looks(*watcher));
+  for (Watcher* watcher : state_.stage().watchers) trial.seconds_per_look.emplace_back(watcher, try_looks(*watcher));
   return trial;
 }
 
@@ -26,13 +27,10 @@ Trial Run::trial(Real seconds) {
 Real Run::try_looks(Watcher& watcher) {
   std::vector<Real> taken;
   for (int look = 0; look < 4; ++look) {
-    if (look > 0) step();
+    if (look > 0) advance();
     const auto start = Clock::now();
-    complete();
-    derived_now_.clear();
-    offer_to(watcher);
-    derive_for(watcher);
-    blaming(watcher, moment_, [&] { watcher.look(*this); });
+    fresh_.outdate();
+    looks_.show_to(watcher);
     taken.push_back(std::chrono::duration<Real>(Clock::now() - start).count());
   }
   taken.erase(taken.begin());
@@ -49,7 +47,8 @@ Real Run::try_steps(Real seconds, int& steps) {
     const auto block = now;
     int done = 0;
     do {
-      step();
+      advance();
+      looks_.pass();
       ++done;
       now = Clock::now();
     } while (now - block < std::chrono::duration<Real>(seconds / 20) && !over());

@@ -1,0 +1,66 @@
+#pragma once
+// What a run must remember, and where it stands. Its numbers are columns of the scene, so that a checkpoint has them all and nothing is
+// copied to and fro.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/loop/largest_use.hpp"
+#include "core/loop/scene.hpp"
+
+namespace beadwork {
+
+/// What a stage remembers of one of its watchers.
+struct WatcherState {
+  Kept last_look;            ///< step; -1: it has not looked
+  std::vector<Kept> looked;  ///< by moment of its 'at': 1 once it had its look
+};
+
+/// A bond law that acts in the present stage.
+using ActingLaw = std::pair<BondLaw*, BondTable*>;
+
+class RunState {
+ public:
+  /// Where the loop is: what is left when something fails may be saved between two steps alone.
+  enum class Phase { within_step, between_steps, after_stage };
+
+  /// Makes its columns. The scene outlives it.
+  explicit RunState(Scene& scene);
+  RunState(const RunState&) = delete;
+  RunState& operator=(const RunState&) = delete;
+
+  Scene& scene;
+  Moment moment;
+  Phase phase = Phase::within_step;
+  std::vector<std::vector<Constraint>> constraints;          ///< by stage
+  std::vector<std::vector<Peak>> peaks;                      ///< by stage, of driven sets
+  std::vector<std::vector<WatcherState>> watchers;           ///< by stage
+  std::vector<std::pair<const Failure*, LargestUse>> uses;   ///< by criterion, in the order of the deck
+  std::vector<Kept> released;                                ///< by family: of broken bonds, and of all once they act no longer [J]
+  Kept bond_updates, loop_seconds, wall_seconds;             ///< the loop's are those of steps and looks, without filling and checkpoints
+  Kept initial_energy;                                       ///< there without any work [J]
+  Kept looks_owed;                                           ///< watchers of the stage that have not had their turn at this step, last in the order
+  std::vector<ActingLaw> laws;                               ///< of the present stage
+
+  Domain& domain() const { return *scene.domain; }
+  std::size_t stage_number() const { return static_cast<std::size_t>(moment.stage); }
+  Stage& stage() const { return scene.stages[stage_number()]; }
+  Mover& mover() const { return stage().mover(); }
+  std::vector<Constraint>& held() { return constraints[stage_number()]; }  ///< of the present stage
+  const std::vector<Constraint>& held() const { return constraints[stage_number()]; }
+
+  /// The number of a family among those of the scene.
+  Index number_of(const BondTable& table) const;
+  Kept& released_by(const BondTable& table) { return released[static_cast<std::size_t>(number_of(table))]; }
+  /// Most constraints of any stage.
+  std::size_t most_held() const;
+
+ private:
+  void keep_constraints();
+  void keep_peaks();
+  void keep_watchers();
+  void keep_uses();
+};
+
+}  // namespace beadwork

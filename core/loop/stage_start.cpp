@@ -1,0 +1,82 @@
+#include "core/loop/stage_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/base/failure.hpp"
+#include "core/loop/blame.hpp"
+#include "core/loop/connect.hpp"
+#include "core/loop/filling.hpp"
+
+namespace beadwork {
+
+namespace {
+
+// Bonds have an id each, and at most a row beyond the elements.
+void require_room(const Domain& domain, const BondLaw& law, std::size_t pairs) {
+  const std::int64_t there = std::int64_t{domain.size()} + domain.bonds();
+  if (pairs > static_cast<std::size_t>(std::numeric_limits<Index>::max() - there))
+    refuse(law.at(), fmt::format("{} bonds more than the {} that are there cannot be numbered", pairs, domain.bonds()));
+}
+
+bool begins_here(const RunState& state, const BondLaw& law) { return state.scene.first_stage(law) == state.stage_number(); }
+
+void connect_family(RunState& state, BondLaw& law, BondTable& table, const Log& log) {
+  blaming(law, state.moment, [&] { law.connect(state.domain(), table); });
+  const std::string remark = blaming(law, "remark", [&] { return law.remark(); });
+  log.say(fmt::format("bond family '{}': {} bonds{}{}", law.family(), table.size(), remark.empty() ? "" : "; ", remark));
+  const std::string caution = blaming(law, "caution", [&] { return law.caution(); });
+  if (!caution.empty()) log.warn(fmt::format("{}: bond family '{}': {}", law.at().where(), law.family(), caution));
+}
+
+}  // namespace
+
+void create_families(RunState& state, const RunOptions& options) {
+  Domain& domain = state.domain();
+  const Pause pause = [&] {
+    if (state.moment.step == 0) pause_before_first_step(options);
+  };
+  Index next_id = domain.bonds();
+  for (BondLaw* law : state.stage().laws) {
+    if (!begins_here(state, *law)) continue;
+    pause();
+    BondTable& table = *domain.find_family(law->family());
+    auto pairs = pairs_to_bond(*law, domain, pause, options.log);
+    require_room(domain, *law, pairs.size());
+    table.create(std::move(pairs), next_id);
+    next_id += table.size();
+  }
+}
+
+void let_laws_act(RunState& state) {
+  Domain& domain = state.domain();
+  state.laws.clear();
+  for (BondLaw* law : state.stage().laws) {
+    BondTable* table = domain.find_family(law->family());
+    if (law->acts_when_broken()) table->keep_broken_live();
+    state.laws.emplace_back(law, table);
+  }
+  domain.cut_families();
+  domain.clear_halo();  // families that act no longer leave nothing behind to be gathered
+  state.scene.bind();
+}
+
+void connect(RunState& state, const Log& log) {
+  Domain& domain = state.domain();
+  for (const auto& [law, table] : state.laws)
+    if (begins_here(state, *law)) connect_family(state, *law, *table, log);
+  for (Load* load : state.stage().loads) blaming(*load, state.moment, [&] { load->clear(domain); });
+  for (Load* load : state.stage().loads) blaming(*load, state.moment, [&] { load->start(domain); });
+}
+
+void begin_constraints(RunState& state) {
+  const auto& first = state.scene.stages.front().loads;
+  for (Constraint& c : state.held()) {
+    const bool stood = state.stage_number() > 0 && std::any_of(first.begin(), first.end(), [&](const Load* load) { return load->id() == c.by; });
+    c.began = stood ? 0 : state.moment.stage_start;
+  }
+}
+
+}  // namespace beadwork
