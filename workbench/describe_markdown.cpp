@@ -100,9 +100,9 @@ const char* const moments = R"(
 
 | `until` | the stage ends |
 |---|---|
-| `1 ms` | after this time, counted from the start of the stage |
+| `1 ms` | at the step nearest to this time, counted from the start of the stage |
 | `5000` | after this number of steps |
-| `0.8 mm` | when the set that is pulled farthest has moved as far |
+| `0.8 mm` | at the step nearest to where the set that is pulled farthest has moved as far |
 | `force of SET \< 3 N`, also `>` `\<=` `>=` | when the force on a driven set passes the value; to fall below it, it must have been above it |
 | `force of SET \< 2 percent of its maximum` | when it passes that share of its largest value in this stage |
 | `displacement of SET > 1 mm` | when this set has moved as far |

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/failure.hpp"
+#include "core/io/checkpoint.hpp"
 #include "core/loop/bounded_json.hpp"
 
 namespace beadwork {
@@ -27,6 +28,11 @@ bool FormerRun::had(const FileSums& files) const {
 bool FormerRun::can_go_on(const FileSums& files) const {
   std::error_code error;
   if (!std::filesystem::exists(folder_ / "checkpoint.h5", error)) return false;
+  try {
+    read_checkpoint_meta(folder_ / "checkpoint.h5");
+  } catch (const MachineFailure&) {
+    return false;
+  }
   if (is_done()) return had(files);
   if (text("status") != "failed") return true;
   const auto code = summary_.find("exit_code");

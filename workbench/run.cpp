@@ -50,6 +50,7 @@ int run(const RunArguments& arguments) {
   const bool resume = arguments.resume || (arguments.resume_or_begin && FormerRun(arguments.out).can_go_on(file_sums(loaded.scene->files())));
   const bool overwrite = arguments.overwrite || arguments.resume_or_begin;
   RunFolder folder = resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, overwrite);
+  if (arguments.resume_or_begin) folder.take_over();  // a batch has decided already
   const auto log = make_run_log(folder.log(), resume, arguments.quiet, arguments.label);
   Progress progress([&](const std::string& line) { log->info(line); }, !arguments.quiet);
 

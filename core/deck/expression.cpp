@@ -74,10 +74,29 @@ bool Expression::has_dimension(const Dimension& wanted) const {
 }
 
 bool Expression::uses(std::size_t variable) const {
-  for (const Step& step : steps_)
-    if (step.operation == static_cast<int>(Operation::variable) && step.a == static_cast<int>(variable))
-      return true;
+  std::vector<int> open{static_cast<int>(steps_.size()) - 1};  // a part of a condition holds steps of the others, too
+  while (!open.empty()) {
+    const Step& step = steps_[static_cast<std::size_t>(open.back())];
+    open.pop_back();
+    const auto operation = static_cast<Operation>(step.operation);
+    if (operation == Operation::variable && step.a == static_cast<int>(variable)) return true;
+    const int from[] = {step.a, step.b, step.c};
+    open.insert(open.end(), from, from + operands(operation));
+  }
   return false;
+}
+
+std::vector<Expression> Expression::parts() const {
+  const Step& last = steps_.back();
+  if (static_cast<Operation>(last.operation) != Operation::both) return {*this};
+  std::vector<Expression> all;
+  for (const int end : {last.a, last.b}) {
+    Expression part = *this;
+    part.text_.clear();
+    part.steps_.resize(static_cast<std::size_t>(end) + 1);
+    for (Expression& each : part.parts()) all.push_back(std::move(each));
+  }
+  return all;
 }
 
 double Expression::evaluate(std::span<const double> si_values) const {

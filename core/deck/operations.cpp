@@ -17,6 +17,33 @@ double sign_of(double a) { return std::isnan(a) ? nan : (a > 0) - (a < 0); }
 
 }  // namespace
 
+int operands(Operation operation) {
+  using enum Operation;
+  switch (operation) {
+    case constant:
+    case variable: return 0;
+    case negate:
+    case opposite:
+    case square_root:
+    case absolute:
+    case sine:
+    case cosine:
+    case tangent:
+    case arc_sine:
+    case arc_cosine:
+    case arc_tangent:
+    case exponential:
+    case logarithm:
+    case logarithm_10:
+    case Operation::floor:
+    case ceiling:
+    case Operation::round:
+    case sign: return 1;
+    case choose: return 3;
+    default: return 2;
+  }
+}
+
 double apply(Operation operation, double a, double b, double c) {
   switch (operation) {
     case Operation::constant:

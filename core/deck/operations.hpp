@@ -45,6 +45,9 @@ enum class Operation {
   sign
 };
 
+/// How many of the three numbers of a step it takes.
+int operands(Operation operation);
+
 /// One step on plain numbers; conditions are 1 and 0. A NaN makes every result NaN, comparisons too.
 double apply(Operation operation, double a, double b, double c);
 

@@ -33,10 +33,11 @@ class View {
                                          static_cast<std::size_t>(c) * plane_);
   }
 
-  /// The row's value; of a scalar column the number itself, to read or to set.
-  [[gnu::always_inline]] decltype(auto) operator[](Index row) const {
+  /// The row's value; of a scalar column the number itself, to read or to set. Vectors and quaternions are told, not lent: they are const, so
+  /// that `force[row] += f` does not compile, where `force.add(row, f)` is meant.
+  [[gnu::always_inline]] std::conditional_t<scalar, Component&, const Value> operator[](Index row) const {
     if constexpr (scalar)
-      return (at(row, 0));
+      return at(row, 0);
     else if constexpr (std::is_same_v<Value, Vec3>)
       return Vec3(at(row, 0), at(row, 1), at(row, 2));
     else

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <fstream>
@@ -65,6 +66,18 @@ std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const
     cuts.push_back({file, kept_length(file, known == ends.end() ? CurveEnd{} : known->second)});
   }
   return cuts;
+}
+
+std::vector<std::string> lost_rows(const std::map<std::string, CurveEnd>& ends, const std::vector<CurveCut>& cuts) {
+  std::vector<std::string> lost;
+  for (const auto& [name, end] : ends) {
+    const auto found = std::find_if(cuts.begin(), cuts.end(), [&, n = name](const CurveCut& cut) { return cut.file.stem().string() == n; });
+    if (found == cuts.end())
+      lost.push_back(fmt::format("curve '{}' is gone, and is begun anew: its rows up to the checkpoint are lost", name));
+    else if (found->length < end.length)
+      lost.push_back(fmt::format("curve '{}' has lost rows: it goes on behind the first {} of the {} bytes that it had at the checkpoint", name, found->length, end.length));
+  }
+  return lost;
 }
 
 void cut(const std::vector<CurveCut>& cuts) {

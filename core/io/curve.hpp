@@ -68,5 +68,7 @@ struct CurveCut {
 /// DeckFailure if it has other columns than it had.
 std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const std::vector<std::filesystem::path>& files);
 void cut(const std::vector<CurveCut>& cuts);
+/// What a checkpoint knows of curves and the files no longer have, a sentence each.
+std::vector<std::string> lost_rows(const std::map<std::string, CurveEnd>& ends, const std::vector<CurveCut>& cuts);
 
 }  // namespace beadwork

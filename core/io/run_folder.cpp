@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <map>
+#include <stdexcept>
 #include <vector>
 
 namespace beadwork {
@@ -79,6 +80,7 @@ bool holds_nothing(const Path& root) {
 
 void remove_run(const Path& root, const Manifest& manifest) {
   std::vector<std::string> files = manifest.files();
+  std::erase(files, "run.log");  // the new one takes its place
   std::stable_partition(files.begin(), files.end(), [](const std::string& file) { return file == "checkpoint.h5"; });
   std::stable_partition(files.begin(), files.end(), [](const std::string& file) { return file != "summary.json"; });
   std::map<Path, bool> there;
@@ -108,16 +110,38 @@ RunFolder RunFolder::fresh(const Path& root, bool overwrite) {
   make_output_folder(root, "run");
   RunFolder folder(root);
   folder.lock();
-  const auto former = Manifest::read(root);
+  auto former = Manifest::read(root);
   if (!former && !holds_nothing(root)) refuse_content(root);
   if (former && !overwrite)
     throw DeckFailure(fmt::format("folder '{}' already holds a run; choose another, or add --overwrite to replace the "
                                   "run, or --resume to continue it",
                                   root.string()));
-  if (former) remove_run(root, *former);
-  folder.manifest_ = Manifest::begin(root, files_of_a_run);
-  if (!is_own_folder(folder.curves())) make_folder(folder.curves());
+  if (former)
+    folder.former_ = std::move(former);
+  else
+    folder.begin();
   return folder;
+}
+
+void RunFolder::begin() {
+  manifest_ = Manifest::begin(root_, files_of_a_run);
+  if (!is_own_folder(curves())) make_folder(curves());
+}
+
+void RunFolder::take_over() {
+  if (!former_) return;
+  const Path own_log = log();
+  remove_run(root_, *former_);
+  former_.reset();
+  error_code error;
+  std::filesystem::rename(own_log, log(), error);
+  if (error) std::filesystem::remove(log(), error);  // the former one's: nobody has written any of this run
+  begin();
+}
+
+std::filesystem::path RunFolder::log() const {
+  const Path file = root_ / "run.log";
+  return former_ ? part_of(file) : file;
 }
 
 RunFolder RunFolder::resume(const Path& root) {
@@ -147,6 +171,7 @@ void RunFolder::clear_leftovers() const {
 }
 
 void RunFolder::claim(const Path& file) {
+  if (former_) throw std::logic_error(fmt::format("'{}' is claimed where a former run still stands", file.string()));
   const Path relative = file.lexically_relative(root_);
   manifest_->claim(relative.string());
   if (relative.has_parent_path() && !is_own_folder(root_ / relative.parent_path())) make_folder(root_ / relative.parent_path());

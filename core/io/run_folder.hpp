@@ -21,10 +21,14 @@ class RunFolder {
  public:
   using Path = std::filesystem::path;
 
-  /// Makes the folder, or takes an empty one. One that holds a run is refused unless `overwrite`, which removes the files that the
-  /// run made and nothing else; one that holds something else is refused always. DeckFailure for what the user asks and should not
+  /// Makes the folder, or takes an empty one. One that holds a run is refused unless `overwrite`, and stays as it is until
+  /// the new one takes over; one that holds something else is refused always. DeckFailure for what the user asks and should not
   /// get, MachineFailure for what the machine cannot do.
   static RunFolder fresh(const Path& root, bool overwrite);
+  /// Removes the files that a former run made, and nothing else: to be called when the new one is known to begin.
+  void take_over();
+  /// Whether a former run still stands here.
+  bool holds_former() const { return former_.has_value(); }
   /// Takes the folder of a run that wrote a checkpoint, and changes nothing in it; DeckFailure if there is none.
   static RunFolder resume(const Path& root);
   /// Before a resumed run writes: removes what a kill left half written, and makes folders that are missing.
@@ -40,7 +44,8 @@ class RunFolder {
   Path resolved() const { return root_ / "resolved.xml"; }
   Path record() const { return root_ / "run.h5"; }
   Path view() const { return root_ / "run.xmf"; }
-  Path log() const { return root_ / "run.log"; }
+  /// Of this run; beside that of the former run until this one begins.
+  Path log() const;
   Path checkpoint() const { return root_ / "checkpoint.h5"; }
   Path frames() const { return root_ / "frames"; }
   Path curves() const { return root_ / "curves"; }
@@ -49,10 +54,12 @@ class RunFolder {
  private:
   explicit RunFolder(Path root) : root_(std::move(root)) {}
   void lock();
+  void begin();
 
   Path root_;
   Descriptor lock_;
-  std::optional<Manifest> manifest_;  ///< always there once made
+  std::optional<Manifest> manifest_;  ///< always there once the run has begun
+  std::optional<Manifest> former_;    ///< of the run that is to be replaced, until this one begins
 };
 
 }  // namespace beadwork

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 
 #include "core/base/failure.hpp"
@@ -36,6 +37,8 @@ std::vector<Pair> near_ones(const BondLaw& law, const Candidates& among, const P
     return find_pairs(among.position, among.radius, *law.gap, 0, pause);
   } catch (const std::invalid_argument& too_many) {
     refuse(law.gap.in_deck() ? law.gap.at() : law.at(), fmt::format("family '{}': {}", *law.name, too_many.what()));
+  } catch (const std::bad_alloc&) {
+    refuse(law.gap.in_deck() ? law.gap.at() : law.at(), fmt::format("family '{}': there is not enough memory for the pairs that stand within this 'gap'", *law.name));
   }
 }
 

@@ -63,15 +63,19 @@ RunMeta Record::meta() const {
 
 void Record::open() {
   const Recorder::Options options;
+  std::vector<std::string> notes;
   if (!options_.resume) {
+    folder_.take_over();
     recorder_ = Recorder::fresh(folder_, meta(), options, state_.domain());
   } else {
     const auto cuts = cuts_to(curve_ends_, curves_to_cut());
     folder_.clear_leftovers();
     recorder_ = Recorder::resume(folder_, meta(), options, state_.domain(), frame_now_.is_of(state_.moment) ? state_.moment.step : state_.moment.step - 1);
+    notes = lost_rows(curve_ends_, cuts);
     cut(cuts);
   }
-  for (const std::string& note : recorder_->notes()) {
+  notes.insert(notes.end(), recorder_->notes().begin(), recorder_->notes().end());
+  for (const std::string& note : notes) {
     options_.log.warn(note);
     figures_.notes.push_back(note);  // beside those of the sessions before
   }
@@ -245,6 +249,7 @@ void Record::show_progress() {
 Real Record::wall_seconds() const { return wall_before_ + std::chrono::duration<Real>(Clock::now() - began_).count(); }
 
 void Record::write_summary() {
+  if (folder_.holds_former()) return;  // this run has not begun, and leaves that one as it was
   figures_.wall_seconds = wall_seconds();
   figures_.loop_seconds = state_.loop_seconds;
   figures_.bond_updates = state_.bond_updates;
@@ -266,6 +271,7 @@ void Record::rescue(const std::string& reason) {
     }
   };
   if (former_summary_) return leave_as_found();
+  if (folder_.holds_former()) return;
   std::error_code error;
   if (state_.phase != RunState::Phase::between_steps)
     std::filesystem::remove(part_of(folder_.checkpoint()), error);
@@ -286,7 +292,7 @@ void Record::rescue(const std::string& reason) {
 // An orderly end, for better or worse: the record is whole, and says why the run ended.
 void Record::close(const std::string& status, ExitCode code, const std::string& reason) {
   options_.log.conclude();
-  for (const auto& [criterion, use] : state_.uses) options_.log.say(sentence(use, *criterion));
+  say_largest_uses(status == "failed");
   figures_.status = status;
   figures_.exit_code = code;
   figures_.exit_reason = reason;
@@ -298,7 +304,19 @@ void Record::close(const std::string& status, ExitCode code, const std::string& 
     if (!recorder_->consolidate(state_.domain(), why)) options_.log.warn("run.h5 still links to its frames: " + why);
   }
   if (former_summary_ && status != "done") return leave_as_found();
+  if (folder_.holds_former()) options_.log.say("this run had not begun: the one that it was to replace stands as it was");
   write_summary();
+}
+
+// Of a plugin that has failed it need not be known.
+void Record::say_largest_uses(bool failed) const {
+  for (const auto& [criterion, use] : state_.uses) {
+    try {
+      options_.log.say(sentence(use, *criterion));
+    } catch (const PhysicsFailure&) {
+      if (!failed) throw;
+    }
+  }
 }
 
 CurveSink& Record::curve(const CurvePlan& plan) {

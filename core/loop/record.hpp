@@ -70,6 +70,7 @@ class Record {
   void show_progress();
   void write_summary();
   std::string summary() const;
+  void say_largest_uses(bool failed) const;
   Real wall_seconds() const;
 
   RunState& state_;

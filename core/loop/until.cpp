@@ -137,6 +137,17 @@ bool is_out_of_reach(const Expression& condition, std::size_t variable, Real rea
          is_met(condition, variable, 1, std::nextafter(reach, std::numeric_limits<Real>::infinity()), std::numeric_limits<Real>::infinity());
 }
 
+std::string why_out_of_reach(const Expression& condition, Real reach) {
+  for (const Mark::What never_negative : {Mark::What::time, Mark::What::steps, Mark::What::displacement}) {
+    const auto variable = static_cast<std::size_t>(never_negative);
+    const Real limit = never_negative == Mark::What::displacement ? reach : std::numeric_limits<Real>::infinity();
+    if (!is_out_of_reach(condition, variable, limit)) continue;
+    return std::isfinite(limit) ? fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most", format_quantity(limit, "m"))
+                                : fmt::format("can never be met: the {} is never negative", Mark::variables()[variable].name);
+  }
+  return "";
+}
+
 }  // namespace
 
 // Forces and displacements are magnitudes; what is to fall below a value must have been above it.
@@ -147,13 +158,8 @@ std::string Until::Clause::why_never(std::span<const Constraint> constraints) co
   if (what == What::condition) {
     const auto displacement = static_cast<std::size_t>(Mark::What::displacement);
     if (condition->uses(displacement) && !reach) return "waits for a displacement, but nothing in <load> is pulled";
-    for (const Mark::What never_negative : {Mark::What::time, Mark::What::steps, Mark::What::displacement}) {
-      const auto variable = static_cast<std::size_t>(never_negative);
-      const Real limit = variable == displacement ? reach.value_or(0) : std::numeric_limits<Real>::infinity();
-      if (!is_out_of_reach(*condition, variable, limit)) continue;
-      return std::isfinite(limit) ? fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most", format_quantity(limit, "m"))
-                                  : fmt::format("can never be met: the {} is never negative", Mark::variables()[variable].name);
-    }
+    for (const Expression& part : condition->parts())
+      if (const std::string why = why_out_of_reach(part, reach.value_or(0)); !why.empty()) return why;
     for (std::size_t v = 0; v < Mark::variables().size(); ++v)
       if (condition->uses(v)) return "";
     return fmt::format("wants a condition on time, step or displacement, \"{}\" never changes", text);

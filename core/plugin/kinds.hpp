@@ -71,7 +71,7 @@ class BondLaw : public Plugin {
       this, {.name = "between", .doc = "The two sets that are bonded; one and the same for bonds inside a set", .role = Role::set, .count = 2}};
   Param<Real> gap{this,
                   {.name = "gap",
-                   .range = not_negative,
+                   .range = {0, 100},
                    .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
                    .fallback = "1e-3"}};
   Param<std::string> neighbours{this,

@@ -17,17 +17,21 @@ inline std::string packing_json(const std::string& set, const std::string& step,
   const bool made = source == PackingSource::filling;
   const std::string seed = made ? fmt::format(R"("seed":{},)", r.seed) : R"("walls":"the box around the elements",)";
   const std::string law = made ? fmt::format(R"("kolmogorov_smirnov_distance":{:.4g},)", r.kolmogorov) : "";
+  // Where no element is as far as that from walls, nothing can be said of the bulk.
+  const std::string bulk = r.bulk_count > 0 ? fmt::format(R"("coordination_bulk":{:.5g},"fabric_eigenvalues_bulk":[{:.5g}],"density_bulk":{:.5g},)", r.near.bulk,
+                                                          fmt::join(r.fabric_bulk, ","), r.density_bulk)
+                                            : "";
   return fmt::format(
       R"({{"set":"{}","step":"{}","elements":{},{}"seconds":{:.3g},)"
-      R"("coordination":{:.5g},"coordination_without_rattlers":{:.5g},"coordination_bulk":{:.5g},)"
+      R"("coordination":{:.5g},"coordination_without_rattlers":{:.5g},{})"
       R"("coordination_touching":{:.5g},"coordination_touching_without_rattlers":{:.5g},"gap_tolerance":{},)"
       R"("rattlers":{:.4g},"max_overlap":{:.4g},"mean_overlap":{:.4g},)"
-      R"("fabric_eigenvalues":[{:.5g}],"fabric_eigenvalues_bulk":[{:.5g}],"density":{:.5g},"density_bulk":{:.5g},)"
+      R"("fabric_eigenvalues":[{:.5g}],"density":{:.5g},)"
       R"("mean_radius":{:.8g},"min_radius":{:.8g},"max_radius":{:.8g},{}"bond_order_q6":{:.4g},)"
       R"("crystalline_share":{:.4g},"radius_over_mean":{{"edges":[{:.6g}],"counts":[{}],"unit":"1"}}}})",
-      set, step, r.count, seed, r.seconds, r.near.all, r.near.without_rattlers, r.near.bulk, r.touching.all,
+      set, step, r.count, seed, r.seconds, r.near.all, r.near.without_rattlers, bulk, r.touching.all,
       r.touching.without_rattlers, r.tolerance, r.rattlers, r.max_overlap, r.mean_overlap, fmt::join(r.fabric, ","),
-      fmt::join(r.fabric_bulk, ","), r.density, r.density_bulk, r.mean_radius, r.min_radius, r.max_radius, law, r.bond_order,
+      r.density, r.mean_radius, r.min_radius, r.max_radius, law, r.bond_order,
       r.crystalline_share, fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
 }
 

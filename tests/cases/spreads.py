@@ -50,7 +50,7 @@ def main():
                             refused += "coordination number" not in p
                             print(row + p, flush=True)
                         else:
-                            print(row + f"{p['coordination']:.2f} | {p['coordination_without_rattlers']:.2f} | {p['coordination_bulk']:.2f} | "
+                            print(row + f"{p['coordination']:.2f} | {p['coordination_without_rattlers']:.2f} | {p.get('coordination_bulk', float('nan')):.2f} | "
                                   f"{p['rattlers']:.3f} | {p['max_overlap']:.1e} |", flush=True)
     sys.exit(f"{refused} refused" if refused else 0)
 

@@ -91,6 +91,18 @@ TEST(Curve, of_several_rows_of_one_step_those_before_the_checkpoint_stay) {
   EXPECT_EQ(text_of(scratch / "force.csv"), "step [1],time [s],force [N]\n100,0,0\n100,0,1\n");
 }
 
+TEST(Curve, that_is_shorter_than_the_checkpoint_knows_or_gone_is_told) {
+  const Scratch scratch;
+  write_text(scratch / "short.csv", "step [1],time [s]\n1,2\n");
+  write_text(scratch / "whole.csv", "step [1],time [s]\n1,2\n3,4\n");
+  const std::map<std::string, CurveEnd> ends = {{"short", {26, "step [1],time [s]"}}, {"whole", {26, "step [1],time [s]"}}, {"gone", {26, "step [1],time [s]"}}};
+  const auto cuts = cuts_to(ends, {scratch / "short.csv", scratch / "whole.csv"});
+  const auto lost = lost_rows(ends, cuts);
+  ASSERT_EQ(lost.size(), 2u);
+  EXPECT_NE(lost[0].find("'gone' is gone"), std::string::npos) << lost[0];
+  EXPECT_NE(lost[1].find("'short' has lost rows: it goes on behind the first 22 of the 26 bytes"), std::string::npos) << lost[1];
+}
+
 TEST(Curve, one_that_the_checkpoint_does_not_know_begins_anew) {
   const Scratch scratch;
   Curve late = fresh_curve(scratch / "late.csv");

@@ -69,8 +69,14 @@ TEST(RunFolder, overwrite_removes_what_the_run_made_and_nothing_else) {
   const std::vector<std::string> others = {"notes.txt", "run.h5.bak", "report.html", "curves/mine.py", "curves/measured.csv", "curves/measured.json",
                                            "curves/old.csv.part", "frames/movie.mp4", "frames/000000000200.h5"};
   for (const std::string& name : others) write_text(scratch / "out" / name, "mine");
-  const RunFolder folder = RunFolder::fresh(scratch / "out", true);
+  RunFolder folder = RunFolder::fresh(scratch / "out", true);
+  write_text(folder.log(), "new");
+  EXPECT_EQ(text_of(scratch / "out/run.h5"), "old") << "it stands until the new one takes over";
+  EXPECT_EQ(text_of(scratch / "out/run.log"), "old");
+  folder.take_over();
+  EXPECT_EQ(text_of(folder.log()), "new");
   auto expected = others;
+  expected.push_back("run.log");
   expected.push_back(Manifest::file_name);
   EXPECT_THAT(files_below(folder.root()), ::testing::UnorderedElementsAreArray(expected));
   for (const std::string& name : others) EXPECT_EQ(text_of(scratch / "out" / name), "mine") << name;
@@ -90,6 +96,8 @@ TEST(RunFolder, a_file_in_the_way_of_a_run_is_left_alone_and_named) {
   leave_a_run(scratch / "out");
   write_text(scratch / "out/curves/measured.csv", "mine");
   RunFolder folder = RunFolder::fresh(scratch / "out", true);
+  EXPECT_THROW(folder.claim(folder.curve("force")), std::logic_error) << "the former run still stands";
+  folder.take_over();
   EXPECT_THAT(message_of<DeckFailure>([&] { folder.claim(folder.curve("measured")); }), HasSubstr("curves/measured.csv"));
   EXPECT_NO_THROW(folder.claim(folder.curve("force")));
   for (const std::string name : {"../summary", "../../elsewhere", "a/b", "line\nbreak", "/etc/passwd"})
@@ -105,7 +113,7 @@ TEST(RunFolder, a_file_is_listed_before_it_can_be_made) {
   }
   EXPECT_TRUE(Manifest::read(scratch / "out")->lists("curves/second.csv"));
   write_text(scratch / "out/curves/second.csv", "old");
-  RunFolder::fresh(scratch / "out", true);
+  RunFolder::fresh(scratch / "out", true).take_over();
   EXPECT_FALSE(fs::exists(scratch / "out/curves/second.csv"));
 }
 
@@ -160,7 +168,7 @@ TEST(RunFolder, overwriting_follows_no_link_out_of_the_folder) {
   write_text(scratch / "elsewhere/force.csv", "precious");
   fs::remove_all(scratch / "out/curves");
   fs::create_directory_symlink(scratch / "elsewhere", scratch / "out/curves");
-  EXPECT_THAT(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", true); }), HasSubstr("out/curves"));
+  EXPECT_THAT(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", true).take_over(); }), HasSubstr("out/curves"));
   EXPECT_EQ(text_of(scratch / "elsewhere/force.csv"), "precious");
   EXPECT_EQ(text_of(scratch / "out/checkpoint.h5"), "old");
 }

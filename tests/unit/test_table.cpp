@@ -47,6 +47,17 @@ void write_and_read_back(const Table& table, const std::vector<Index>& rows) {
   EXPECT_EQ(position[rows[1] + 1], zero<Vec3>()) << "a row far behind was written to one in front";
 }
 
+template <class V>
+concept its_row_can_be_added_to = requires(V view) { view[0] += Vec3(1, 0, 0); };
+template <class V>
+concept its_row_can_be_set = requires(V view) { view[0] = 1.0; };
+
+TEST(View, tells_vectors_and_lends_numbers) {
+  static_assert(!its_row_can_be_added_to<View<Vec3>>, "what is told is a copy: adding to it would be lost");
+  static_assert(its_row_can_be_set<View<Real>>);
+  static_assert(!its_row_can_be_set<View<const Real>>);
+}
+
 TEST(Table, holds_its_numbers_in_a_line_of_more_than_2_to_the_31_bytes) {
   const std::size_t before = resident();
   Table table(Table::Layout::rows);
