@@ -20,7 +20,7 @@ class Kept {
     return *this;
   }
   Kept& operator+=(Real value) { return *this = number() + value; }
-  operator Real() const { return column_ ? column_->view<Real>()[row_] : own_; }
+  operator Real() const { return column_ ? there() : own_; }
 
   /// Gives it a place, with what stands there.
   void stand_in(Table& table, std::string name, std::string unit, std::string doc, Index row = 0) {
@@ -30,7 +30,9 @@ class Kept {
   }
 
  private:
-  Real& number() { return column_ ? column_->view<Real>()[row_] : own_; }
+  // The column's type has been checked when it was made; where it lies is asked anew, for it may have moved.
+  Real& there() const { return View<Real>(column_->base(), column_->stride(), column_->plane())[row_]; }
+  Real& number() { return column_ ? there() : own_; }
   Column* column_ = nullptr;
   Index row_ = 0;
   Real own_ = 0;

@@ -15,10 +15,11 @@ end() {
 trap end EXIT
 
 seconds() { # build, threads, deck, options... -> seconds in the loop
-  local program=$1/bin/beadwork number=$2 deck=$3
+  local program=$1/bin/beadwork number=$2 deck=$3 folder
+  folder=$out/${1//\//-}  # another build may list its files otherwise
   shift 3
-  "$program" run "$deck" --out "$out/run" --overwrite --threads "$number" --quiet "$@"
-  grep -o '"loop_seconds": [0-9.e+-]*' "$out/run/summary.json" | cut -d' ' -f2
+  "$program" run "$deck" --out "$folder" --overwrite --threads "$number" --quiet "$@"
+  grep -o '"loop_seconds": [0-9.e+-]*' "$folder/summary.json" | cut -d' ' -f2
 }
 median() { sort -g "$1" | awk '{v[NR] = $1} END {print NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2}'; }
 tell() { # title, file of the first, file of the second
