@@ -21,27 +21,27 @@ class LawDamping {
 
   /// The velocities that stand are those that the forces are found with.
   void see(const Motion& all) {
-    if (acts_) foreseen_ = rates(all);
+    if (acts_) take(all, foreseen_);
   }
 
   /// Velocities stand half-way: `foresee` brings them to the step, `evaluate` finds the forces; then they stand half-way again.
   template <class Foresee, class Evaluate>
   void evaluate(const Motion& all, const Foresee& foresee, const Evaluate& find_forces) {
-    const std::vector<Rates> half_way = rates(all);
+    take(all, kept_);
     foresee();
     see(all);
     find_forces();
-    set(all, [&](std::size_t i) { return half_way[i]; });
+    set(all, [&](std::size_t i) { return kept_[i]; });
   }
 
   /// At the velocities of the step [W]. A power is the square of a velocity, so f.C.v = P((f + v)/2) - P((f - v)/2); where a law's is not, this is
   /// exact to second order in f - v.
-  Real power(Workings& w, const Motion& all) const {
+  Real power(Workings& w, const Motion& all) {
     return acts_ ? product(w, all, [](const Rates& now, Index) { return now; }) : 0;
   }
 
   /// By how much what is booked lags behind what they took: dt^2/4 of their force times the acceleration [J].
-  Real lag(Workings& w, const Motion& all, Real dt) const {
+  Real lag(Workings& w, const Motion& all, Real dt) {
     if (!acts_) return 0;
     return -dt / 4 * product(w, all, [&](const Rates&, Index i) {
       return Rates{dt / all.mass[i] * all.force[i], all.spin ? Vec3(dt / all.inertia[i] * all.torque[i]) : Vec3(Vec3::Zero())};
@@ -53,10 +53,9 @@ class LawDamping {
     Vec3 velocity, spin;
   };
 
-  static std::vector<Rates> rates(const Motion& all) {
-    std::vector<Rates> found(static_cast<std::size_t>(all.count));
-    each_shared(all.count, [&](Index i) { found[static_cast<std::size_t>(i)] = {all.velocity[i], all.spin ? Vec3(all.spin[i]) : Vec3(Vec3::Zero())}; });
-    return found;
+  static void take(const Motion& all, std::vector<Rates>& into) {
+    into.resize(static_cast<std::size_t>(all.count));
+    each_shared(all.count, [&](Index i) { into[static_cast<std::size_t>(i)] = {all.velocity[i], all.spin ? Vec3(all.spin[i]) : Vec3(Vec3::Zero())}; });
   }
 
   template <class Of>
@@ -70,12 +69,12 @@ class LawDamping {
 
   // of(rates, row) is what the foreseen velocities are multiplied with.
   template <class Of>
-  Real product(Workings& w, const Motion& all, const Of& of) const {
-    const std::vector<Rates> now = rates(all);
+  Real product(Workings& w, const Motion& all, const Of& of) {
+    take(all, kept_);
     const auto power_at = [&](Real sign) {
       set(all, [&](std::size_t i) {
         const Rates& f = foreseen_[i];
-        const Rates other = of(now[i], static_cast<Index>(i));
+        const Rates other = of(kept_[i], static_cast<Index>(i));
         return Rates{0.5 * (f.velocity + sign * other.velocity), 0.5 * (f.spin + sign * other.spin)};
       });
       Real sum = 0;
@@ -84,12 +83,13 @@ class LawDamping {
       return sum;
     };
     const Real found = power_at(1) - power_at(-1);
-    set(all, [&](std::size_t i) { return now[i]; });
+    set(all, [&](std::size_t i) { return kept_[i]; });
     return found;
   }
 
-  bool acts_ = false;             // some law of the stage reads velocities
-  std::vector<Rates> foreseen_;   // of each element, with which the forces were found
+  bool acts_ = false;            // some law of the stage reads velocities
+  std::vector<Rates> foreseen_;  // of each element, with which the forces were found
+  std::vector<Rates> kept_;      // while others stand in their place
 };
 
 }  // namespace beadwork
