@@ -33,7 +33,8 @@ struct Shares {
 };
 
 Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
-  if (arguments.engine == "slurm") return {arguments.jobs, std::max(1, arguments.threads)};  // processors of other machines
+  if (arguments.engine == "slurm")
+    return {arguments.jobs, std::max(1, arguments.threads)};  // processors of other machines
   const int allowed = allowed_processors();
   Shares shares{arguments.jobs, arguments.threads};
   if (shares.jobs == 0) shares.jobs = std::max(1, allowed / std::max(1, shares.threads));
@@ -42,7 +43,8 @@ Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
   return shares;
 }
 
-BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& variations, const std::vector<std::string>& values) {
+BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& variations,
+                const std::vector<std::string>& values) {
   BatchRun run;
   run.name = folder_name(variations, values);
   run.values = values;
@@ -57,11 +59,23 @@ BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& v
 }
 
 void write_command(BatchRun& run, int threads, const Words& words) {
-  run.command = {fs::canonical("/proc/self/exe").string(), "run", fs::absolute(run.deck.path).string(), "--quiet", "--label", run.name,
-                 "--batch", command_line(words), "--out", run.folder.string(), "--threads", std::to_string(threads), "--resume-or-begin"};
+  run.command = {fs::canonical("/proc/self/exe").string(),
+                 "run",
+                 fs::absolute(run.deck.path).string(),
+                 "--quiet",
+                 "--label",
+                 run.name,
+                 "--batch",
+                 command_line(words),
+                 "--out",
+                 run.folder.string(),
+                 "--threads",
+                 std::to_string(threads),
+                 "--resume-or-begin"};
   for (const std::string& setting : run.deck.settings) run.command.insert(run.command.end(), {"--set", setting});
   if (run.deck.no_plugins) run.command.push_back("--no-plugins");
-  for (const std::string& library : run.deck.libraries) run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
+  for (const std::string& library : run.deck.libraries)
+    run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
 }
 
 std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector<Variation>& variations) {
@@ -70,8 +84,10 @@ std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector
   std::map<std::string, const BatchRun*> by_folder;
   for (const BatchRun& run : runs)
     if (const auto [twin, is_new] = by_folder.emplace(run.name, &run); !is_new)
-      throw DeckFailure(fmt::format("error: the runs with {} and with {} would write the same folder, '{}': give values whose names differ in letters and digits",
-                                    shell_quoted(twin->second->title), shell_quoted(run.title), (fs::path(arguments.out) / run.name).string()));
+      throw DeckFailure(fmt::format(
+          "error: the runs with {} and with {} would write the same folder, '{}': give values whose names differ in "
+          "letters and digits",
+          shell_quoted(twin->second->title), shell_quoted(run.title), (fs::path(arguments.out) / run.name).string()));
   return runs;
 }
 
@@ -95,7 +111,9 @@ int batch(const BatchArguments& arguments) {
     write_error(refused < runs.size() ? "nothing was run; --keep-going runs the others\n" : "nothing was run\n");
     return worst(runs);
   }
-  const auto count = [&](const auto& which) { return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), which)); };
+  const auto count = [&](const auto& which) {
+    return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), which));
+  };
   const std::size_t done = count([](const BatchRun& run) { return run.done; });
   const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
   BatchFolder folder(arguments.out);
@@ -112,7 +130,8 @@ int batch(const BatchArguments& arguments) {
     return worst(runs);
   }
   run_here(runs, shares.jobs, variations, table);
-  if (worst(runs) == static_cast<int>(ExitCode::interrupted)) say("interrupted; go on with: {}\n", command_line(arguments.words));
+  if (worst(runs) == static_cast<int>(ExitCode::interrupted))
+    say("interrupted; go on with: {}\n", command_line(arguments.words));
   say("{}\n", table.string());
   return worst(runs);
 }
@@ -121,7 +140,9 @@ int batch(const BatchArguments& arguments) {
 
 int worst(const std::vector<BatchRun>& runs) {
   const std::vector<int> mildest_first{0, 5, 2, 3, 4, 1};
-  const auto rank = [&](int code) { return std::find(mildest_first.begin(), mildest_first.end(), code) - mildest_first.begin(); };
+  const auto rank = [&](int code) {
+    return std::find(mildest_first.begin(), mildest_first.end(), code) - mildest_first.begin();
+  };
   int code = 0;
   for (const BatchRun& run : runs) {
     const int own = run.done ? 0 : run.code < 0 ? 5 : run.code;
@@ -131,17 +152,25 @@ int worst(const std::vector<BatchRun>& runs) {
 }
 
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
-  CLI::App* verb = app.add_subcommand("batch", "Runs a deck with many values of its parameters, and tabulates the results");
-  verb->footer("Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
-               "Give the same command again: what is done is left alone, what was interrupted or ran out of disk goes on, the rest begins anew.\n"
-               "beadwork report out/sweep lays the curves of the runs over one another.");
+  CLI::App* verb =
+      app.add_subcommand("batch", "Runs a deck with many values of its parameters, and tabulates the results");
+  verb->footer(
+      "Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
+      "Give the same command again: what is done is left alone, what was interrupted or ran out of disk goes on, the "
+      "rest begins anew.\n"
+      "beadwork report out/sweep lays the curves of the runs over one another.");
   auto arguments = std::make_shared<BatchArguments>();
   arguments->words = words;
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the runs, one folder each, and for batch.csv")->required();
-  verb->add_option("--vary", arguments->variations, "Values of a parameter: name=value,value,...; several give all combinations")->allow_extra_args(false);
-  verb->add_option("--jobs", arguments->jobs, "Runs at once; where absent as many as there are processors for")->check(CLI::Range(1, 1024));
-  verb->add_option("--threads", arguments->threads, "Threads of each run; where absent the processors that it may use, shared out among the runs at once, and 1 with Slurm")
+  verb->add_option("--vary", arguments->variations,
+                   "Values of a parameter: name=value,value,...; several give all combinations")
+      ->allow_extra_args(false);
+  verb->add_option("--jobs", arguments->jobs, "Runs at once; where absent as many as there are processors for")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option("--threads", arguments->threads,
+                   "Threads of each run; where absent the processors that it may use, shared out among the runs at "
+                   "once, and 1 with Slurm")
       ->check(CLI::Range(1, 1024));
   verb->add_flag("--keep-going", arguments->keep_going, "Runs those whose decks are in order, though others are not");
   verb->add_option("--engine", arguments->engine, "local: processes of this machine; slurm: an array of jobs")

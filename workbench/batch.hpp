@@ -24,11 +24,11 @@ struct BatchRun {
   DeckArguments deck;                ///< with its values
   std::vector<std::string> command;  ///< beadwork run ...
   std::string deck_sha256;
-  FileSums files;  ///< that its deck names for data, as they are now
+  FileSums files;        ///< that its deck names for data, as they are now
   bool refused = false;  ///< its deck has errors
   bool done = false;
-  bool outdated = false;  ///< it was done, but with other data files
-  int code = -1;          ///< exit code; -1 before it has ended
+  bool outdated = false;         ///< it was done, but with other data files
+  int code = -1;                 ///< exit code; -1 before it has ended
   std::vector<std::string> row;  ///< of the table, from "status" to "exit_reason", as note_row read it last
   Results results;
 };
@@ -42,17 +42,20 @@ struct Variation {
 Variation variation_of(const std::string& text);
 /// All combinations, the last parameter varying fastest.
 std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& variations);
-/// Of the values, without what a folder's name should not have; of 200 letters at most, a long one ends in a check sum of all of it.
+/// Of the values, without what a folder's name should not have; of 200 letters at most, a long one ends in a check sum
+/// of all of it.
 std::string folder_name(const std::vector<Variation>& variations, const std::vector<std::string>& values);
 
 struct DeckCheck {
   std::size_t refused = 0;  ///< runs
   std::string text;         ///< what is wrong, and warnings, each once with the runs that it concerns
 };
-/// Checks the decks of all runs, each as its process will see it, and marks those that are done and those that are refused.
+/// Checks the decks of all runs, each as its process will see it, and marks those that are done and those that are
+/// refused.
 DeckCheck check_decks(std::vector<BatchRun>& runs);
 
-/// True if a run ended there, in order, with the data files that there are now. DeckFailure if it was another deck, or other values, that ran.
+/// True if a run ended there, in order, with the data files that there are now. DeckFailure if it was another deck, or
+/// other values, that ran.
 bool is_done(BatchRun& run);
 /// Reads what the run says of itself now.
 void note_row(BatchRun& run);
@@ -81,16 +84,18 @@ class BatchFolder {
 /// The process that has locked a file or folder, where the system tells: "process 4711", or "another process".
 std::string holder_of(const std::filesystem::path& path);
 
-/// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites `table` whenever one ends.
-/// Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when this process is killed. A run that
-/// another process is still at is waited for.
-void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations, const std::filesystem::path& table);
+/// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites `table`
+/// whenever one ends. Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when
+/// this process is killed. A run that another process is still at is waited for.
+void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations,
+              const std::filesystem::path& table);
 
-/// Writes a script for Slurm and submits it; `at_once` = 0 leaves that to Slurm. MachineFailure, naming the script, if there is no sbatch here.
+/// Writes a script for Slurm and submits it; `at_once` = 0 leaves that to Slurm. MachineFailure, naming the script, if
+/// there is no sbatch here.
 void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, BatchFolder& folder);
 
-/// Starts a program that is asked to stop (SIGTERM) when this process ends, however it ends. -1 if it cannot be started.
-/// `also`: a descriptor that it inherits, as number `inherited_descriptor`; -1 for none.
+/// Starts a program that is asked to stop (SIGTERM) when this process ends, however it ends. -1 if it cannot be
+/// started. `also`: a descriptor that it inherits, as number `inherited_descriptor`; -1 for none.
 pid_t start_program(const std::vector<std::string>& command, int also = -1);
 inline constexpr int inherited_descriptor = 3;
 

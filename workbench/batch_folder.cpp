@@ -23,7 +23,8 @@ namespace {
 Descriptor locked(const fs::path& folder) {
   Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock && ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw DeckFailure(fmt::format("error: a batch is running in '{}' already: {}; wait for it, or choose another --out", folder.string(), holder_of(folder)));
+    throw DeckFailure(fmt::format("error: a batch is running in '{}' already: {}; wait for it, or choose another --out",
+                                  folder.string(), holder_of(folder)));
   return lock;
 }
 
@@ -37,7 +38,8 @@ std::string holder_of(const fs::path& path) {
   for (std::string line; std::getline(locks, line);) {  // 1: FLOCK ADVISORY WRITE 4711 08:01:131090 0 EOF
     std::istringstream words(line);
     std::string number, kind, how, mode, process, place;
-    if (words >> number >> kind >> how >> mode >> process >> place && kind == "FLOCK" && place.ends_with(inode)) return "process " + process;
+    if (words >> number >> kind >> how >> mode >> process >> place && kind == "FLOCK" && place.ends_with(inode))
+      return "process " + process;
   }
   return "another process";
 }
@@ -51,7 +53,8 @@ BatchFolder::BatchFolder(const fs::path& root) : root_(root) {
 
 fs::path BatchFolder::claim(const std::string& name) {
   if (!list_) {
-    Manifest::refuse_what_stands(root_ / name, Manifest::Of::batch);  // then no list is left in the folder of somebody else
+    Manifest::refuse_what_stands(root_ / name,
+                                 Manifest::Of::batch);  // then no list is left in the folder of somebody else
     list_ = Manifest::begin(root_, {}, Manifest::Of::batch);
   }
   list_->claim(name);

@@ -78,7 +78,8 @@ class Pool {
     const Descriptor theirs(ends[1]);
     if (told) command.insert(command.end(), {"--tell", std::to_string(inherited_descriptor)});
     const pid_t child = start_program(command, theirs.number());
-    if (child < 0) throw MachineFailure(fmt::format("error: cannot start {}: {}", command.front(), std::strerror(errno)));
+    if (child < 0)
+      throw MachineFailure(fmt::format("error: cannot start {}: {}", command.front(), std::strerror(errno)));
     running_.push_back({child, &run, std::move(ours), 0});
   }
 
@@ -201,7 +202,8 @@ class Here {
       BatchRun& run = *waiting_.front();
       waiting_.pop_front();
       if (is_busy(run.folder)) {
-        if (elsewhere_.insert(&run).second) tell(fmt::format("{}: {} is still writing this run; waiting", run.name, holder_of(run.folder)));
+        if (elsewhere_.insert(&run).second)
+          tell(fmt::format("{}: {} is still writing this run; waiting", run.name, holder_of(run.folder)));
         waiting_.push_back(&run);
         busy = true;
       } else if (elsewhere_.contains(&run) && is_done(run)) {
@@ -224,8 +226,9 @@ class Here {
     run.done = run.code == 0;
     next_look_ = {};
     const std::string log = (run.folder / "run.log").string();
-    const std::string why = WIFSIGNALED(status) ? fmt::format("killed by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))
-                                                : fmt::format("exit code {}", run.code);
+    const std::string why =
+        WIFSIGNALED(status) ? fmt::format("killed by signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))
+                            : fmt::format("exit code {}", run.code);
     if (run.code == static_cast<int>(ExitCode::interrupted))
       note_done(run, "interrupted, goes on when the same command is given again");
     else
@@ -271,7 +274,8 @@ class Here {
 
 }  // namespace
 
-void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations, const fs::path& table) {
+void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations,
+              const fs::path& table) {
   heed_signals();
   Here(runs, at_once, variations, table).attend();
 }

@@ -31,7 +31,8 @@ std::vector<std::vector<std::string>> combinations(const std::vector<Variation>&
   std::vector<std::vector<std::string>> all{{}};
   for (const Variation& variation : variations) {
     if (all.size() * variation.values.size() > most)
-      throw DeckFailure(fmt::format("error: --vary {} makes more than {} runs of all combinations", variation.name, most));
+      throw DeckFailure(
+          fmt::format("error: --vary {} makes more than {} runs of all combinations", variation.name, most));
     std::vector<std::vector<std::string>> longer;
     for (const auto& values : all)
       for (const std::string& value : variation.values) {
@@ -50,7 +51,8 @@ std::string folder_name(const std::vector<Variation>& variations, const std::vec
   const std::string whole = pieces.empty() ? "run" : join(pieces, ",");
   std::string name = whole;
   for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view(".,=+-_").find(c) == std::string_view::npos) c = '-';
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view(".,=+-_").find(c) == std::string_view::npos)
+      c = '-';
   if (name.front() == '.') name.front() = '-';
   if (name.size() <= longest) return name;
   return name.substr(0, longest - sum - 1) + "_" + sha256(whole).substr(0, sum);
@@ -108,7 +110,8 @@ DeckCheck check_decks(std::vector<BatchRun>& runs) {
     note_row(run);
   }
   std::string text;
-  for (std::size_t k = 0; k < order.size() && k < most_shown; ++k) text += fmt::format("{}  in {}\n", order[k], listed(who[order[k]], runs.size()));
+  for (std::size_t k = 0; k < order.size() && k < most_shown; ++k)
+    text += fmt::format("{}  in {}\n", order[k], listed(who[order[k]], runs.size()));
   if (order.size() > most_shown) text += fmt::format("... and {} more\n", order.size() - most_shown);
   if (bad > 0) text += fmt::format("{} of {} runs cannot begin\n", bad, runs.size());
   return {bad, text};

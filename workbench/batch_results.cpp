@@ -1,5 +1,5 @@
-// What a run has found, read from what it wrote: of its curves the largest forces and where they ended, of its summary all numbers that
-// say how it went.
+// What a run has found, read from what it wrote: of its curves the largest forces and where they ended, of its summary
+// all numbers that say how it went.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// All numbers of an object, and of those in it, by what they are called ("energy: stored [J]"), and the verdict of `quality`.
+// All numbers of an object, and of those in it, by what they are called ("energy: stored [J]"), and the verdict of
+// `quality`.
 void add_numbers(const Json& object, const std::string& heading, const std::string& unit, Results& results) {
   for (const auto& [key, value] : object.items()) {
     const std::string name = heading + ": " + key;
@@ -40,10 +41,13 @@ void add_curve(const fs::path& file, Results& results) {
       double largest = NAN;
       for (const double value : column.values)
         if (std::isfinite(value) && !(std::abs(value) <= std::abs(largest))) largest = value;
-      if (std::isfinite(largest)) results.emplace_back(fmt::format("{}: largest {} [N]", file.stem().string(), column.name), fmt::format("{}", largest));
+      if (std::isfinite(largest))
+        results.emplace_back(fmt::format("{}: largest {} [N]", file.stem().string(), column.name),
+                             fmt::format("{}", largest));
     }
     if (column.unit == "m" && !column.values.empty())
-      results.emplace_back(fmt::format("{}: final {} [m]", file.stem().string(), column.name), fmt::format("{}", column.values.back()));
+      results.emplace_back(fmt::format("{}: final {} [m]", file.stem().string(), column.name),
+                           fmt::format("{}", column.values.back()));
   }
 }
 
@@ -63,7 +67,9 @@ Results results_of(const fs::path& folder) {
     }
   }
   const Json summary = bounded_object(folder / "summary.json");
-  const auto part = [&](const char* key) { return summary.contains(key) && summary[key].is_object() ? summary[key] : Json::object(); };
+  const auto part = [&](const char* key) {
+    return summary.contains(key) && summary[key].is_object() ? summary[key] : Json::object();
+  };
   add_numbers(part("breaks"), "breaks", "", results);
   add_numbers(part("energy"), "energy", " [J]", results);
   add_numbers(part("quality"), "quality", "", results);

@@ -34,20 +34,24 @@ void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads
   const auto list = std::filesystem::absolute(folder.claim("batch.commands"));
   const auto script = std::filesystem::absolute(folder.claim("batch.sbatch"));
   write_atomically(list, commands);
-  write_atomically(script, fmt::format("#!/bin/bash\n"
-                                       "#SBATCH --job-name=beadwork\n"
-                                       "#SBATCH --array=1-{}{}\n"
-                                       "#SBATCH --cpus-per-task={}\n"
-                                       "#SBATCH --requeue\n"
-                                       "commands={}\n"
-                                       "eval \"$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" \"$commands\")\"\n",
-                                       count, at_once > 0 ? fmt::format("%{}", at_once) : "", threads, shell_quoted(list.string())));
-  const pid_t child = start_program({"sbatch", "--output", without_patterns(script.parent_path().string()) + "/slurm-%a.log", script.string()});
+  write_atomically(
+      script, fmt::format("#!/bin/bash\n"
+                          "#SBATCH --job-name=beadwork\n"
+                          "#SBATCH --array=1-{}{}\n"
+                          "#SBATCH --cpus-per-task={}\n"
+                          "#SBATCH --requeue\n"
+                          "commands={}\n"
+                          "eval \"$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" \"$commands\")\"\n",
+                          count, at_once > 0 ? fmt::format("%{}", at_once) : "", threads, shell_quoted(list.string())));
+  const pid_t child = start_program(
+      {"sbatch", "--output", without_patterns(script.parent_path().string()) + "/slurm-%a.log", script.string()});
   int status = 0;
   if (child > 0) ::waitpid(child, &status, 0);
   if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
-    throw MachineFailure(fmt::format("there is no sbatch here; submit it where there is one: sbatch {}", script.string()));
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw MachineFailure(fmt::format("error: sbatch refused {}", script.string()));
+    throw MachineFailure(
+        fmt::format("there is no sbatch here; submit it where there is one: sbatch {}", script.string()));
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw MachineFailure(fmt::format("error: sbatch refused {}", script.string()));
   say("{} runs submitted; the same command with --engine local makes the table once they are done\n", count);
 }
 

@@ -18,7 +18,9 @@ using Json = nlohmann::json;
 // What the run says of itself; empty where it has not begun.
 Json summary_of(const BatchRun& run) { return bounded_object<Json>(run.folder / "summary.json"); }
 
-std::string text(const Json& json, const char* key) { return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : ""; }
+std::string text(const Json& json, const char* key) {
+  return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
+}
 
 // Whatever a parameter, a curve or a run is called: the table is UTF-8.
 std::string field(const std::string& raw) {
@@ -70,16 +72,18 @@ bool is_done(BatchRun& run) {
   const FormerRun former(run.folder);
   if (!former.is_done()) return false;
   if (former.text("deck_sha256") != run.deck_sha256)
-    throw DeckFailure(fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
-                                  run.folder.string()));
+    throw DeckFailure(
+        fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
+                    run.folder.string()));
   run.outdated = !former.had(run.files);
   return !run.outdated;
 }
 
 void note_row(BatchRun& run) {
   const Json summary = run.refused ? Json::object() : summary_of(run);
-  run.row = {status_of(run, summary), number(summary, "elements"), number(summary, "steps"), number(summary, "time"),
-             breaks(summary), number(summary, "wall_seconds"), text(summary, "exit_reason")};
+  run.row = {
+      status_of(run, summary), number(summary, "elements"),     number(summary, "steps"),    number(summary, "time"),
+      breaks(summary),         number(summary, "wall_seconds"), text(summary, "exit_reason")};
 }
 
 std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs) {
@@ -94,7 +98,8 @@ std::string batch_table(const std::vector<Variation>& variations, const std::vec
     for (const std::string& value : run.values) table += "," + field(value);
     for (const std::string& cell : run.row) table += "," + field(cell);
     for (const std::string& column : columns) {
-      const auto found = std::find_if(run.results.begin(), run.results.end(), [&](const auto& result) { return result.first == column; });
+      const auto found = std::find_if(run.results.begin(), run.results.end(),
+                                      [&](const auto& result) { return result.first == column; });
       table += "," + (found == run.results.end() ? "" : field(found->second));
     }
     table += "\n";

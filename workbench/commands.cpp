@@ -14,7 +14,9 @@ std::string command_line(const Words& words) {
 Commands commands_of(const Words& words, const std::string& batch) {
   if (!batch.empty()) return {batch, batch};
   Words plain;
-  const auto is_how = [](const std::string& word) { return word == "--resume" || word == "--overwrite" || word == "--resume-or-begin"; };
+  const auto is_how = [](const std::string& word) {
+    return word == "--resume" || word == "--overwrite" || word == "--resume-or-begin";
+  };
   std::remove_copy_if(words.begin(), words.end(), std::back_inserter(plain), is_how);
   const auto with = [&](const std::string& flag) {
     Words all = plain;

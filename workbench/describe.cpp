@@ -35,11 +35,15 @@ Manual pick(Manual manual, const std::string& wanted) {
 const char* section_doc(Kind kind) {
   switch (kind) {
     case Kind::fill: return "Adds elements and names sets of them. Runs once, before all else, in the deck's order.";
-    case Kind::bond: return "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; acts at every evaluation of the forces.";
+    case Kind::bond:
+      return "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; "
+             "acts at every evaluation of the forces.";
     case Kind::load: return "Moves or holds sets of elements, pushes them, or gives them a velocity to start with.";
     case Kind::move: return "Advances the scene by one step. A stage has exactly one.";
     case Kind::fail: return "Decides, after the forces, which bonds break.";
-    case Kind::derive: return "Provides a field that somebody reads. Never stands in a deck: it is added by itself, and runs only in the steps in which its field is read.";
+    case Kind::derive:
+      return "Provides a field that somebody reads. Never stands in a deck: it is added by itself, and runs only in "
+             "the steps in which its field is read.";
     case Kind::watch: return "Looks at the scene every few steps and records. Changes nothing.";
   }
   return "";
@@ -113,7 +117,9 @@ void add_describe(CLI::App& app, Chosen& chosen) {
   verb->footer("Examples: beadwork describe cohesive-beam\n          beadwork describe --format xsd > beadwork.xsd");
   auto arguments = std::make_shared<DescribeArguments>();
   verb->add_option("plugin", arguments->plugin, "A plugin, such as bond/cohesive-beam or cohesive-beam");
-  verb->add_option("--format", arguments->format, "md: the manual as Markdown; xsd: a schema of decks for editors; json: the same as data; text for a terminal where absent")
+  verb->add_option("--format", arguments->format,
+                   "md: the manual as Markdown; xsd: a schema of decks for editors; json: the same as data; text for a "
+                   "terminal where absent")
       ->check(CLI::IsMember({"md", "xsd", "json"}));
   verb->add_option("--plugins", arguments->libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
   verb->callback([&chosen, arguments] { chosen = [arguments] { return describe(*arguments); }; });

@@ -10,12 +10,17 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const ParamBase& param) {
   const ParamInfo& info = param.info();
-  Json json{{"name", info.name}, {"type", param.type()}, {"unit", info.unit}, {"required", param.needed()}, {"doc", info.doc}};
+  Json json{{"name", info.name},
+            {"type", param.type()},
+            {"unit", info.unit},
+            {"required", param.needed()},
+            {"doc", info.doc}};
   if (const std::string range = range_words(param); !range.empty()) json["range"] = range;
   if (info.fallback) json["default"] = *info.fallback;
   if (!info.choices.empty()) json["choices"] = info.choices;
   if (!info.one_of.empty()) json["one_of"] = info.one_of;
-  for (const Variable& variable : info.variables) json["variables"].push_back({{"name", variable.name}, {"unit", variable.dimension.name()}});
+  for (const Variable& variable : info.variables)
+    json["variables"].push_back({{"name", variable.name}, {"unit", variable.dimension.name()}});
   return json;
 }
 

@@ -23,8 +23,11 @@ std::string row_of(const Plugin& plugin, const ParamBase& param) {
   const ParamInfo& info = param.info();
   const std::string only = info.instead.empty() ? "" : fmt::format(" where there is no {}", code(info.instead));
   const std::string presence = presence_words(plugin, param);
-  const std::string fallback = info.fallback ? code(*info.fallback) + only : presence == "optional" ? presence : "**" + presence + "**";
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", info.name, cell(type_words(param)), cell(range_words(param)), fallback, cell(meaning(param)));
+  const std::string fallback = info.fallback            ? code(*info.fallback) + only
+                               : presence == "optional" ? presence
+                                                        : "**" + presence + "**";
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", info.name, cell(type_words(param)), cell(range_words(param)),
+                     fallback, cell(meaning(param)));
 }
 
 std::string row_of(Kind kind, const FieldUse& use) {
@@ -125,7 +128,8 @@ std::string as_markdown(const Manual& manual) {
   std::string text = preface + functions_table() + moments;
   const char* section = nullptr;
   for (const Described& each : manual) {
-    if (section != kind_name(each.kind)) text += fmt::format("\n## `<{}>`\n\n{}\n", kind_name(each.kind), section_doc(each.kind));
+    if (section != kind_name(each.kind))
+      text += fmt::format("\n## `<{}>`\n\n{}\n", kind_name(each.kind), section_doc(each.kind));
     section = kind_name(each.kind);
     text += "\n" + chapter(each);
   }

@@ -29,7 +29,8 @@ std::string entry_of(const Plugin& plugin, const ParamBase& param, std::size_t w
   std::string head = type_words(param);
   if (const std::string range = range_words(param); !range.empty()) head += ", " + range;
   if (info.fallback)
-    head += fmt::format("; default {}{}", *info.fallback, info.instead.empty() ? "" : " where there is no " + info.instead);
+    head +=
+        fmt::format("; default {}{}", *info.fallback, info.instead.empty() ? "" : " where there is no " + info.instead);
   else
     head += "; " + presence_words(plugin, param);
   return fmt::format("  {}\n", info.name) + wrapped(head, 6, width) + wrapped(meaning(param) + ".", 6, width);
@@ -38,7 +39,9 @@ std::string entry_of(const Plugin& plugin, const ParamBase& param, std::size_t w
 std::string entry_of(Kind kind, const FieldUse& use, std::size_t width) {
   const Field& field = use.field();
   const std::string unit = field.unit == "1" ? "" : " in " + field.unit;
-  return wrapped(fmt::format("{} {} ({}{}): {}", use_word(kind, use.verb()), field.name, place_name(field.on), unit, field.doc), 2, width);
+  return wrapped(
+      fmt::format("{} {} ({}{}): {}", use_word(kind, use.verb()), field.name, place_name(field.on), unit, field.doc), 2,
+      width);
 }
 
 }  // namespace
@@ -59,7 +62,8 @@ std::string as_text(const Manual& manual, std::size_t width) {
   std::string text;
   for (const Described& each : manual) {
     if (!text.empty()) text += "\n";
-    text += fmt::format("<{}>  in section <{}>\n", each.tag, kind_name(each.kind)) + wrapped(each.about + ".", 2, width);
+    text +=
+        fmt::format("<{}>  in section <{}>\n", each.tag, kind_name(each.kind)) + wrapped(each.about + ".", 2, width);
     if (!each.plugin->params().empty()) text += "\nAttributes\n";
     for (const ParamBase* param : each.plugin->params()) text += entry_of(*each.plugin, *param, width);
     if (!each.plugin->uses().empty()) text += "\nFields\n";

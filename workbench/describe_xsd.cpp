@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-
 #include "core/base/text.hpp"
 #include "workbench/describe.hpp"
 
@@ -15,13 +14,15 @@ const std::string zero = R"([+\-]?0(\.0*)?)";
 const std::string expression = R"(.*[$]\{.*\}.*)";  // its value is known to the program only
 
 std::string doc_of(const std::string& text, const std::string& indent) {
-  return fmt::format("{0}<xs:annotation><xs:documentation>{1}</xs:documentation></xs:annotation>\n", indent, xml_escaped(text));
+  return fmt::format("{0}<xs:annotation><xs:documentation>{1}</xs:documentation></xs:annotation>\n", indent,
+                     xml_escaped(text));
 }
 
 std::string pattern_type(const std::string& name, const std::string& pattern, const std::string& doc) {
-  return fmt::format("  <xs:simpleType name=\"{}\">\n{}    <xs:restriction base=\"xs:token\">\n      <xs:pattern value=\"{}\"/>\n"
-                     "      <xs:pattern value=\"{}\"/>\n    </xs:restriction>\n  </xs:simpleType>\n",
-                     name, doc_of(doc, "    "), xml_escaped(pattern), xml_escaped(expression));
+  return fmt::format(
+      "  <xs:simpleType name=\"{}\">\n{}    <xs:restriction base=\"xs:token\">\n      <xs:pattern value=\"{}\"/>\n"
+      "      <xs:pattern value=\"{}\"/>\n    </xs:restriction>\n  </xs:simpleType>\n",
+      name, doc_of(doc, "    "), xml_escaped(pattern), xml_escaped(expression));
 }
 
 std::string value_types() {
@@ -30,7 +31,9 @@ std::string value_types() {
   text += pattern_type("numbers", fmt::format("({0}{1}? ){{2}}{0}{1}?", number, unit), "Three values: 1 2 3 mm");
   text += pattern_type("switch", "yes|no|true|false", "yes or no");
   text += pattern_type("expression", expression, "${...}: a parameter, or an expression on quantities");
-  text += "  <xs:simpleType name=\"text\">\n    <xs:restriction base=\"xs:token\"><xs:minLength value=\"1\"/></xs:restriction>\n  </xs:simpleType>\n";
+  text +=
+      "  <xs:simpleType name=\"text\">\n    <xs:restriction base=\"xs:token\"><xs:minLength "
+      "value=\"1\"/></xs:restriction>\n  </xs:simpleType>\n";
   return text;
 }
 
@@ -39,9 +42,10 @@ std::string choice_type(const std::vector<std::string>& choices, bool several, c
   std::string words = indent + "    <xs:simpleType><xs:restriction base=\"xs:token\">";
   for (const std::string& choice : choices) words += fmt::format("<xs:enumeration value=\"{}\"/>", xml_escaped(choice));
   words += "</xs:restriction></xs:simpleType>\n";
-  const std::string one = several ? indent + "    <xs:simpleType><xs:list>\n" + words + indent + "    </xs:list></xs:simpleType>\n" : words;
-  return indent + "<xs:simpleType>\n" + indent + "  <xs:union memberTypes=\"expression\">\n" + one + indent + "  </xs:union>\n" + indent +
-         "</xs:simpleType>\n";
+  const std::string one =
+      several ? indent + "    <xs:simpleType><xs:list>\n" + words + indent + "    </xs:list></xs:simpleType>\n" : words;
+  return indent + "<xs:simpleType>\n" + indent + "  <xs:union memberTypes=\"expression\">\n" + one + indent +
+         "  </xs:union>\n" + indent + "</xs:simpleType>\n";
 }
 
 const char* type_of_param(const ParamBase& param) {
@@ -57,16 +61,20 @@ std::string attribute(const ParamBase& param) {
   const ParamInfo& info = param.info();
   std::string doc = fmt::format("{} ({}", info.doc, type_words(param));
   if (const std::string range = range_words(param); !range.empty()) doc += ", " + range;
-  doc += info.fallback ? fmt::format("; default {}{})", *info.fallback, info.instead.empty() ? "" : " where there is no " + info.instead) : ")";
+  doc += info.fallback ? fmt::format("; default {}{})", *info.fallback,
+                                     info.instead.empty() ? "" : " where there is no " + info.instead)
+                       : ")";
   const std::string type = info.choices.empty() ? fmt::format(" type=\"{}\"", type_of_param(param)) : "";
-  std::string text = fmt::format("    <xs:attribute name=\"{}\"{}{}>\n", info.name, type, param.needed() ? " use=\"required\"" : "");
+  std::string text =
+      fmt::format("    <xs:attribute name=\"{}\"{}{}>\n", info.name, type, param.needed() ? " use=\"required\"" : "");
   text += doc_of(doc, "      ");
   if (!info.choices.empty()) text += choice_type(info.choices, !param.type().starts_with("one of"), "      ");
   return text + "    </xs:attribute>\n";
 }
 
 std::string plugin_type(const Described& each) {
-  std::string text = fmt::format("  <xs:complexType name=\"{}.{}\">\n{}", kind_name(each.kind), each.tag, doc_of(each.about, "    "));
+  std::string text =
+      fmt::format("  <xs:complexType name=\"{}.{}\">\n{}", kind_name(each.kind), each.tag, doc_of(each.about, "    "));
   for (const ParamBase* param : each.plugin->params()) text += attribute(*param);
   return text + "  </xs:complexType>\n";
 }
@@ -75,37 +83,47 @@ const char* const any_number = "<xs:choice minOccurs=\"0\" maxOccurs=\"unbounded
 const char* const include = "      <xs:element name=\"include\" type=\"include\"/>\n";
 
 std::string section_type(Kind kind, const Manual& manual) {
-  std::string text = fmt::format("  <xs:complexType name=\"{}\">\n{}    {}\n{}", kind_name(kind), doc_of(section_doc(kind), "    "), any_number, include);
+  std::string text = fmt::format("  <xs:complexType name=\"{}\">\n{}    {}\n{}", kind_name(kind),
+                                 doc_of(section_doc(kind), "    "), any_number, include);
   for (const Described& each : manual)
     if (each.kind == kind)
-      text += fmt::format("      <xs:element name=\"{0}\" type=\"{1}.{0}\">\n{2}      </xs:element>\n", each.tag, kind_name(kind), doc_of(each.about, "        "));
+      text += fmt::format("      <xs:element name=\"{0}\" type=\"{1}.{0}\">\n{2}      </xs:element>\n", each.tag,
+                          kind_name(kind), doc_of(each.about, "        "));
   return text + "    </xs:choice>\n  </xs:complexType>\n";
 }
 
 std::string plain_attribute(const std::string& name, const std::string& type, bool required, const std::string& doc) {
-  return fmt::format("    <xs:attribute name=\"{}\" type=\"{}\"{}>\n{}    </xs:attribute>\n", name, type, required ? " use=\"required\"" : "",
-                     doc_of(doc, "      "));
+  return fmt::format("    <xs:attribute name=\"{}\" type=\"{}\"{}>\n{}    </xs:attribute>\n", name, type,
+                     required ? " use=\"required\"" : "", doc_of(doc, "      "));
 }
 
 std::string sections(const std::vector<Kind>& kinds, bool inside_stage) {
   std::string text = fmt::format("    {}\n{}", any_number, include);
   for (const Kind kind : kinds)
     if (!(inside_stage && kind == Kind::fill))
-      text += fmt::format("      <xs:element name=\"{0}\" type=\"{0}\">\n{1}      </xs:element>\n", kind_name(kind), doc_of(section_doc(kind), "        "));
+      text += fmt::format("      <xs:element name=\"{0}\" type=\"{0}\">\n{1}      </xs:element>\n", kind_name(kind),
+                          doc_of(section_doc(kind), "        "));
   if (!inside_stage)
-    text += "      <xs:element name=\"parameter\" type=\"parameter\"/>\n      <xs:element name=\"stage\" type=\"stage\"/>\n";
+    text +=
+        "      <xs:element name=\"parameter\" type=\"parameter\"/>\n      <xs:element name=\"stage\" "
+        "type=\"stage\"/>\n";
   return text + "    </xs:choice>\n";
 }
 
 std::string frame_types(const std::vector<Kind>& kinds) {
-  std::string text = "  <xs:complexType name=\"parameter\">\n" + doc_of("A value with a name, for ${name}; --set name=value changes it", "    ");
-  text += plain_attribute("name", "text", true, "Its name") + plain_attribute("value", "text", true, "A quantity, a list, a text or an expression");
-  text += "  </xs:complexType>\n  <xs:complexType name=\"include\">\n" + doc_of("Another file with the root <scene>; what stands in it stands here", "    ");
+  std::string text = "  <xs:complexType name=\"parameter\">\n" +
+                     doc_of("A value with a name, for ${name}; --set name=value changes it", "    ");
+  text += plain_attribute("name", "text", true, "Its name") +
+          plain_attribute("value", "text", true, "A quantity, a list, a text or an expression");
+  text += "  </xs:complexType>\n  <xs:complexType name=\"include\">\n" +
+          doc_of("Another file with the root <scene>; what stands in it stands here", "    ");
   text += plain_attribute("file", "text", true, "Path from this file's folder");
   text += "  </xs:complexType>\n  <xs:complexType name=\"stage\">\n" +
-          doc_of("A part of the run, in the deck's order. What stands outside of stages holds in all of them", "    ") + sections(kinds, true);
+          doc_of("A part of the run, in the deck's order. What stands outside of stages holds in all of them", "    ") +
+          sections(kinds, true);
   text += plain_attribute("name", "text", false, "Its name") +
-          plain_attribute("until", "text", false, "When it ends: a time, a number of steps, a displacement, or a condition");
+          plain_attribute("until", "text", false,
+                          "When it ends: a time, a number of steps, a displacement, or a condition");
   text += "  </xs:complexType>\n  <xs:element name=\"scene\">\n    <xs:complexType>\n" + sections(kinds, false);
   text += plain_attribute("name", "text", false, "Name of the scene; that of the file where absent") +
           plain_attribute("seed", "number", false, "Seed of all random numbers; 0 where absent") +

@@ -19,8 +19,8 @@ class FormerRun {
   std::string text(const char* key) const;
   /// Whether the data files of its deck were the same as these.
   bool had(const FileSums& files) const;
-  /// Whether it can be gone on with: it has a checkpoint, and was interrupted, killed, or stopped by the machine. What physics stopped would
-  /// stop again. One that is done can be given another end, unless its data files have changed.
+  /// Whether it can be gone on with: it has a checkpoint, and was interrupted, killed, or stopped by the machine. What
+  /// physics stopped would stop again. One that is done can be given another end, unless its data files have changed.
   bool can_go_on(const FileSums& files) const;
 
  private:

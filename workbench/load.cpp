@@ -11,7 +11,8 @@ namespace beadwork {
 
 void DeckArguments::add_to(CLI::App& verb) {
   verb.add_option("deck", path, "The deck, an XML file")->required();
-  verb.add_option("--set", settings, "Gives a parameter of the deck another value: name=value")->allow_extra_args(false);
+  verb.add_option("--set", settings, "Gives a parameter of the deck another value: name=value")
+      ->allow_extra_args(false);
   verb.add_option("--plugins", libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
   verb.add_flag("--no-plugins", no_plugins, "Loads no library that the deck itself names: for decks from elsewhere");
 }
@@ -39,7 +40,8 @@ std::vector<std::filesystem::path> named_libraries(const Deck& deck, bool none, 
     const std::string why = why_unreachable(path);
     std::error_code error;
     if (std::filesystem::status(path, error).type() == std::filesystem::file_type::not_found)
-      throw LibraryFailure(fmt::format("{}: error: no plugin library: there is no file {}", named->value_at.where(), path));
+      throw LibraryFailure(
+          fmt::format("{}: error: no plugin library: there is no file {}", named->value_at.where(), path));
     if (!why.empty()) refuse(named->value_at, fmt::format("cannot read plugin library \"{}\": {}", path, why));
     libraries.emplace_back(path);
   }

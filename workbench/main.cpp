@@ -14,7 +14,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Beadwork: a workbench for the discrete element method of bonded solids", "beadwork"};
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 2 deck, 3 physics or a plugin's failure, 4 plugin library, 5 interrupted and resumable, 1 anything else");
+  app.footer(
+      "Exit codes: 0 done, 2 deck, 3 physics or a plugin's failure, 4 plugin library, 5 interrupted and resumable, 1 "
+      "anything else");
   std::function<int()> chosen;
   const Words words(argv, argv + argc);
   add_run(app, chosen, words);
@@ -42,7 +44,8 @@ int main(int argc, char** argv) {
     write_error("error: out of memory\n");
   } catch (const std::filesystem::filesystem_error& error) {
     say_error("error: cannot use '{}': {}\n", error.path1().string(), error.code().message());
-    const bool is_no_path = error.code() == std::errc::filename_too_long || error.code() == std::errc::too_many_symbolic_link_levels;
+    const bool is_no_path =
+        error.code() == std::errc::filename_too_long || error.code() == std::errc::too_many_symbolic_link_levels;
     if (is_no_path) return static_cast<int>(ExitCode::deck);
   } catch (const std::exception& error) {
     say_error("error: {}\n", error.what());

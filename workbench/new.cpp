@@ -56,11 +56,14 @@ std::string schema_attributes() {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   const auto schema = (program.parent_path() / "../share/beadwork/beadwork.xsd").lexically_normal();
   if (error || !std::filesystem::exists(schema, error)) return "";
-  return fmt::format("\n       xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"{}\"", xml_escaped(schema.string()));
+  return fmt::format(
+      "\n       xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"{}\"",
+      xml_escaped(schema.string()));
 }
 
 std::string skeleton_deck(const Manual& chosen, const std::string& name) {
-  std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"{}\" seed=\"1\"{}>\n", xml_escaped(name), schema_attributes());
+  std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"{}\" seed=\"1\"{}>\n",
+                                 xml_escaped(name), schema_attributes());
   for (const Kind kind : all_kinds) {
     std::string section;
     for (const Described& each : chosen)
@@ -78,9 +81,11 @@ struct NewArguments {
 Described choose(const Catalogue& catalogue, const std::string& wanted) {
   Manual found = pick(manual_of(catalogue), wanted);
   if (found.size() > 1)
-    throw DeckFailure(fmt::format("error: '{}' is both {} and {}: say which", wanted, found[0].path(), found[1].path()));
+    throw DeckFailure(
+        fmt::format("error: '{}' is both {} and {}: say which", wanted, found[0].path(), found[1].path()));
   if (found.front().kind == Kind::derive)
-    throw DeckFailure(fmt::format("error: <{}> never stands in a deck: it is added where its field is read", found.front().tag));
+    throw DeckFailure(
+        fmt::format("error: <{}> never stands in a deck: it is added where its field is read", found.front().tag));
   return std::move(found.front());
 }
 
@@ -96,8 +101,10 @@ int make_deck(const NewArguments& arguments) {
   }
   std::error_code error;
   const auto there = std::filesystem::symlink_status(out, error);  // what a link leads to is somebody else's
-  if (std::filesystem::exists(there)) throw DeckFailure(fmt::format("error: '{}' exists already; choose another name", out.string()));
-  if (error && !std::filesystem::status_known(there)) throw DeckFailure(fmt::format("error: '{}' cannot be the name of a deck: {}", out.string(), error.message()));
+  if (std::filesystem::exists(there))
+    throw DeckFailure(fmt::format("error: '{}' exists already; choose another name", out.string()));
+  if (error && !std::filesystem::status_known(there))
+    throw DeckFailure(fmt::format("error: '{}' cannot be the name of a deck: {}", out.string(), error.message()));
   const Descriptor file = open_regular(out, O_WRONLY | O_CREAT | O_EXCL, "write");
   if (const int number = write_all(file.number(), text.data(), text.size())) throw file_failure("write", out, number);
   say("{0}: now fill in what 'beadwork check {0}' asks for\n", out.string());

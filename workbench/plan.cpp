@@ -55,10 +55,13 @@ std::string duration(Real seconds) {
 
 std::string counts(const Domain& domain) {
   const auto megabytes = [](const Table& table) { return 1e-6 * static_cast<Real>(table.memory()); };
-  std::string text = fmt::format("\nFilled\n  {:28} {:>10}  {:8.2f} MB\n", "elements", domain.size(), megabytes(domain.elements()));
+  std::string text =
+      fmt::format("\nFilled\n  {:28} {:>10}  {:8.2f} MB\n", "elements", domain.size(), megabytes(domain.elements()));
   for (const auto& family : domain.families())
-    text += fmt::format("  {:28} {:>10}  {:8.2f} MB\n", "bonds of '" + family->name() + "'", family->size(), megabytes(family->rows()));
-  for (const auto& [name, set] : domain.sets()) text += fmt::format("  {:28} {:>10}\n", "set '" + name + "'", set.size());
+    text += fmt::format("  {:28} {:>10}  {:8.2f} MB\n", "bonds of '" + family->name() + "'", family->size(),
+                        megabytes(family->rows()));
+  for (const auto& [name, set] : domain.sets())
+    text += fmt::format("  {:28} {:>10}\n", "set '" + name + "'", set.size());
   return text;
 }
 
@@ -67,7 +70,8 @@ Real looks(const Stage& stage, Real steps, const Trial& trial) {
   Real seconds = 0;
   for (std::size_t w = 0; w < stage.watchers.size(); ++w) {
     const Watcher& watcher = *stage.watchers[w];
-    const auto tried = std::find_if(trial.seconds_per_look.begin(), trial.seconds_per_look.end(), [&](const auto& look) { return look.first == &watcher; });
+    const auto tried = std::find_if(trial.seconds_per_look.begin(), trial.seconds_per_look.end(),
+                                    [&](const auto& look) { return look.first == &watcher; });
     if (tried == trial.seconds_per_look.end()) continue;
     const Real regular = watcher.every.given() ? std::floor(steps / static_cast<Real>(*watcher.every)) : 0;
     seconds += tried->second * (regular + static_cast<Real>(stage.marks[w].size()));
@@ -76,10 +80,12 @@ Real looks(const Stage& stage, Real steps, const Trial& trial) {
 }
 
 std::string times(const Scene& scene, const Trial& trial, int threads) {
-  std::string text = fmt::format("\nTime\n  filling {}; time step {:.4g} s{}{}\n", duration(trial.fill_seconds), trial.time_step,
-                                 trial.limited_by.empty() ? "" : ", ", trial.limited_by);
-  text += fmt::format("  {:.3g} s per step ({} steps tried, {} thread{})", trial.seconds_per_step, trial.steps, threads, threads == 1 ? "" : "s");
-  for (const auto& [watcher, seconds] : trial.seconds_per_look) text += fmt::format(", {:.2g} s per look of {}", seconds, watcher->id());
+  std::string text = fmt::format("\nTime\n  filling {}; time step {:.4g} s{}{}\n", duration(trial.fill_seconds),
+                                 trial.time_step, trial.limited_by.empty() ? "" : ", ", trial.limited_by);
+  text += fmt::format("  {:.3g} s per step ({} steps tried, {} thread{})", trial.seconds_per_step, trial.steps, threads,
+                      threads == 1 ? "" : "s");
+  for (const auto& [watcher, seconds] : trial.seconds_per_look)
+    text += fmt::format(", {:.2g} s per look of {}", seconds, watcher->id());
   text += "\n";
   Real total = 0;
   for (const Stage& stage : scene.stages) {
@@ -91,7 +97,8 @@ std::string times(const Scene& scene, const Trial& trial, int threads) {
     const Real looking = looks(stage, *steps, trial);
     const Real all = *steps * trial.seconds_per_step + looking;
     total += all;
-    text += fmt::format("  stage '{}': {:.0f} steps at most, about {}, of which {} for looks\n", stage.name, *steps, duration(all), duration(looking));
+    text += fmt::format("  stage '{}': {:.0f} steps at most, about {}, of which {} for looks\n", stage.name, *steps,
+                        duration(all), duration(looking));
   }
   if (scene.stages.size() > 1) text += fmt::format("  together about {}\n", duration(total));
   return text;
@@ -131,8 +138,11 @@ void add_plan(CLI::App& app, Chosen& chosen) {
   verb->footer("Example: beadwork plan xml-cases/dcb/quick.xml --fill");
   auto arguments = std::make_shared<PlanArguments>();
   arguments->deck.add_to(*verb);
-  verb->add_flag("--fill", arguments->fill, "Makes the elements and bonds and tries some steps, for numbers, megabytes and times");
-  verb->add_option("--threads", arguments->threads, "Number of threads for the trial")->check(CLI::Range(1, 1024))->capture_default_str();
+  verb->add_flag("--fill", arguments->fill,
+                 "Makes the elements and bonds and tries some steps, for numbers, megabytes and times");
+  verb->add_option("--threads", arguments->threads, "Number of threads for the trial")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
   verb->callback([&chosen, arguments] { chosen = [arguments] { return plan(*arguments); }; });
 }
 

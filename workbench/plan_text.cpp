@@ -15,8 +15,8 @@ namespace {
 std::string label(const Plugin& plugin) {
   std::string text = plugin.tag();
   for (const ParamBase* param : plugin.params())
-    if (param->info().role == Role::makes_set || param->info().role == Role::makes_family || param->info().role == Role::family ||
-        (param->info().role == Role::set && plugin.family().empty()))
+    if (param->info().role == Role::makes_set || param->info().role == Role::makes_family ||
+        param->info().role == Role::family || (param->info().role == Role::set && plugin.family().empty()))
       for (const std::string& name : param->names()) text += " " + name;
   return text;
 }
@@ -106,28 +106,32 @@ std::string columns_of(const Scene& scene, const Table& table, On on, const std:
   std::string text;
   for (const Column* column : table.columns()) {
     const Field& field = column->field();
-    text += fmt::format("  {:28} {:>3} bytes  {:8} {:7} {}\n", field.name, bytes(field.type), field.unit == "1" ? "" : field.unit,
-                        column->kept() ? "saved" : "", users(scene, field.name, on, family));
+    text += fmt::format("  {:28} {:>3} bytes  {:8} {:7} {}\n", field.name, bytes(field.type),
+                        field.unit == "1" ? "" : field.unit, column->kept() ? "saved" : "",
+                        users(scene, field.name, on, family));
   }
   return text;
 }
 
 std::string fields(const Scene& scene) {
   const Domain& domain = *scene.domain;
-  std::string text = fmt::format("\nColumns on elements: {} bytes per element\n", row_bytes(domain.elements(), On::elements));
+  std::string text =
+      fmt::format("\nColumns on elements: {} bytes per element\n", row_bytes(domain.elements(), On::elements));
   text += columns_of(scene, domain.elements(), On::elements, "");
   std::vector<std::pair<std::string, std::string>> alike;  // columns, and the families that have just these
   for (const auto& family : domain.families()) {
     const std::string columns = fmt::format("{} bytes per bond\n{}", row_bytes(family->rows(), On::bonds),
                                             columns_of(scene, family->rows(), On::bonds, family->name()));
-    const auto there = std::find_if(alike.begin(), alike.end(), [&](const auto& each) { return each.first == columns; });
+    const auto there =
+        std::find_if(alike.begin(), alike.end(), [&](const auto& each) { return each.first == columns; });
     if (there == alike.end())
       alike.emplace_back(columns, family->name());
     else
       there->second += ", " + family->name();
   }
   for (const auto& [columns, families] : alike) text += fmt::format("\nColumns on bonds of {}: {}", families, columns);
-  if (!domain.scene().columns().empty()) text += "\nNumbers of the scene\n" + columns_of(scene, domain.scene(), On::scene, "");
+  if (!domain.scene().columns().empty())
+    text += "\nNumbers of the scene\n" + columns_of(scene, domain.scene(), On::scene, "");
   return text;
 }
 
@@ -138,9 +142,11 @@ std::vector<std::string> declined(const Scene& scene) {
     const BondTable* table = scene.domain->find_family(plugin->family());
     std::vector<std::string> names;
     for (const FieldUse* use : plugin->uses())
-      if (use->verb() == Verb::writes && use->field().on == On::bonds && table && !table->rows().find(use->field().name))
+      if (use->verb() == Verb::writes && use->field().on == On::bonds && table &&
+          !table->rows().find(use->field().name))
         names.push_back(use->field().name);
-    if (!names.empty()) all.push_back(fmt::format("columns that {} offers and nobody reads: {}", label(*plugin), join(names)));
+    if (!names.empty())
+      all.push_back(fmt::format("columns that {} offers and nobody reads: {}", label(*plugin), join(names)));
   }
   return all;
 }

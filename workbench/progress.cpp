@@ -22,7 +22,8 @@ std::size_t terminal_width() {
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_width;
 }
 
-// Bytes of the character that begins with this one, and the columns that it takes, roughly: scripts from Hangul on take two.
+// Bytes of the character that begins with this one, and the columns that it takes, roughly: scripts from Hangul on take
+// two.
 std::size_t bytes_of(unsigned char first) { return first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4; }
 std::size_t columns_of(unsigned char first, unsigned char second) {
   if (first < 0xE1 || (first == 0xE1 && second < 0x84)) return 1;
@@ -87,7 +88,8 @@ std::string progress_line(const Headway& headway, std::optional<double> seconds_
     const double share = std::clamp<double>(*headway.share, 0, 1);
     line = fmt::format("{:3.0f} % ", std::floor(100 * share));
     if (width >= 50) line += bar(share, std::clamp<std::size_t>(width / 5, 10, 30)) + " ";
-    if (seconds_to_go) line += fmt::format("{}{} to go  ", headway.at_most ? "at most " : "", duration_text(*seconds_to_go));
+    if (seconds_to_go)
+      line += fmt::format("{}{} to go  ", headway.at_most ? "at most " : "", duration_text(*seconds_to_go));
   }
   line += headway.work;
   if (!headway.detail.empty()) line += ", " + headway.detail;
@@ -109,7 +111,8 @@ void Progress::show(const Headway& headway) {
   if (headway.share) to_go_.note(std::chrono::duration<double>(now - began_).count(), *headway.share);
   const auto seconds = headway.share ? to_go_.seconds() : std::nullopt;
   if (terminal_) {
-    write(progress_line(headway, seconds, terminal_width() - 1));  // a full line would make some terminals begin another
+    write(
+        progress_line(headway, seconds, terminal_width() - 1));  // a full line would make some terminals begin another
   } else if (now - last_logged_ >= std::chrono::minutes(1)) {
     last_logged_ = now;
     log_(progress_line(headway, seconds, 200));

@@ -1,5 +1,6 @@
 #pragma once
-// What a terminal shows while one waits: a bar, how much is done, about how long it will take, and where the work stands.
+// What a terminal shows while one waits: a bar, how much is done, about how long it will take, and where the work
+// stands.
 
 #include <chrono>
 #include <functional>
@@ -33,7 +34,8 @@ std::string progress_line(const Headway& headway, std::optional<double> seconds_
 /// On a terminal one line, which is written over; elsewhere a line a minute for the log.
 class Progress {
  public:
-  /// `log` takes the lines where no terminal shows them. `on_terminal`: whether standard error, if it is a terminal, is to show anything.
+  /// `log` takes the lines where no terminal shows them. `on_terminal`: whether standard error, if it is a terminal, is
+  /// to show anything.
   explicit Progress(std::function<void(const std::string&)> log, bool on_terminal = true);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -47,7 +47,8 @@ int run(const RunArguments& arguments) {
   heed_signals();
   Loaded loaded = load_scene(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
-  const bool resume = arguments.resume || (arguments.resume_or_begin && FormerRun(arguments.out).can_go_on(file_sums(loaded.scene->files())));
+  const bool resume = arguments.resume || (arguments.resume_or_begin &&
+                                           FormerRun(arguments.out).can_go_on(file_sums(loaded.scene->files())));
   const bool overwrite = arguments.overwrite || arguments.resume_or_begin;
   RunFolder folder = resume ? RunFolder::resume(arguments.out) : RunFolder::fresh(arguments.out, overwrite);
   if (arguments.resume_or_begin) folder.take_over();  // a batch has decided already
@@ -74,10 +75,11 @@ int run(const RunArguments& arguments) {
     tell(arguments.tell, headway);
   };
 
-  log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path, options.threads, options.threads == 1 ? "" : "s",
-            loaded.catalogue.instructions(), arguments.out);
+  log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path,
+            options.threads, options.threads == 1 ? "" : "s", loaded.catalogue.instructions(), arguments.out);
   for (const Library& library : loaded.catalogue.libraries())
-    note_in_file(*log, fmt::format("plugins: {}, {} instructions, built for {}", library.path.string(), instructions_of(library), library.version));
+    note_in_file(*log, fmt::format("plugins: {}, {} instructions, built for {}", library.path.string(),
+                                   instructions_of(library), library.version));
   Run job(*loaded.scene, loaded.catalogue, folder, options);
   try {
     job.all();
@@ -92,8 +94,9 @@ int run(const RunArguments& arguments) {
   }
   progress.hide();
   const RunFigures& figures = job.figures();
-  log->info("done: {} in {:.1f} s ({:.1f} s in the loop, {:.3g} million bond updates/s)", figures.exit_reason, figures.wall_seconds,
-            figures.loop_seconds, figures.loop_seconds > 0 ? 1e-6 * figures.bond_updates / figures.loop_seconds : 0);
+  log->info("done: {} in {:.1f} s ({:.1f} s in the loop, {:.3g} million bond updates/s)", figures.exit_reason,
+            figures.wall_seconds, figures.loop_seconds,
+            figures.loop_seconds > 0 ? 1e-6 * figures.bond_updates / figures.loop_seconds : 0);
   return 0;
 }
 
@@ -112,16 +115,26 @@ void add_run(CLI::App& app, Chosen& chosen, const Words& words) {
   arguments->words = words;
   arguments->deck.add_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the results")->required();
-  CLI::Option* overwrite = verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
-  CLI::Option* resume = verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")->excludes(overwrite);
+  CLI::Option* overwrite =
+      verb->add_flag("--overwrite", arguments->overwrite, "Replaces the results of an earlier run");
+  CLI::Option* resume =
+      verb->add_flag("--resume", arguments->resume, "Goes on from the newest checkpoint in the folder")
+          ->excludes(overwrite);
   verb->add_flag("--resume-or-begin", arguments->resume_or_begin,
-                 "Goes on from the checkpoint of a run that was interrupted, killed or stopped by the machine; where there is none, begins as --overwrite does")
+                 "Goes on from the checkpoint of a run that was interrupted, killed or stopped by the machine; where "
+                 "there is none, begins as --overwrite does")
       ->excludes(overwrite)
       ->excludes(resume);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
-  verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")->group("");  // for no user: hidden
-  verb->add_option("--threads", arguments->threads, "Number of threads; as many as there are processors that it may use where absent")->check(CLI::Range(1, 1024));
-  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes, "Wall time between checkpoints; the first comes after a minute at most")->check(minutes)->capture_default_str();
+  verb->add_option("--batch", arguments->batch, "The command of the batch that runs this")
+      ->group("");  // for no user: hidden
+  verb->add_option("--threads", arguments->threads,
+                   "Number of threads; as many as there are processors that it may use where absent")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option("--checkpoint-minutes", arguments->checkpoint_minutes,
+                   "Wall time between checkpoints; the first comes after a minute at most")
+      ->check(minutes)
+      ->capture_default_str();
   verb->add_option("--label", arguments->label)->group("");  // these two are for batch
   verb->add_option("--tell", arguments->tell)->group("");
   verb->callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });

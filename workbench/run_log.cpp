@@ -56,7 +56,8 @@ std::string pattern_of(const std::string& label) {
 
 }  // namespace
 
-std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet, const std::string& label) {
+std::shared_ptr<spdlog::logger> make_run_log(const std::filesystem::path& file, bool append, bool quiet,
+                                             const std::string& label) {
   auto sink = std::make_shared<FileSink>(file, append);
   auto console = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
   sink->set_formatter(line_format("%Y-%m-%d %H:%M:%S %l %*"));

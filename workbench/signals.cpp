@@ -37,7 +37,8 @@ bool ends_by_asking(int number) { return std::find(std::begin(asking), std::end(
 
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) != stream) ::_exit(1);  // takes the lowest free number
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF && ::open("/dev/null", O_RDWR) != stream)
+      ::_exit(1);  // takes the lowest free number
 }
 
 void default_signals() {

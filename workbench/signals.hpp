@@ -5,21 +5,24 @@
 
 namespace beadwork {
 
-/// Opens /dev/null where standard input, output or error was closed by whoever started the program, so that no file of a run gets its
-/// number and takes what is meant for the terminal. To be called before any file is opened.
+/// Opens /dev/null where standard input, output or error was closed by whoever started the program, so that no file of
+/// a run gets its number and takes what is meant for the terminal. To be called before any file is opened.
 void hold_standard_streams();
 
 /// Number of the signal by which the run is to end in order; 0: none yet.
 extern std::atomic<int> interrupted;
 
-/// From now on Ctrl-C, SIGTERM, a closed terminal (SIGHUP, unless nohup has it ignored), SIGUSR1 and the processor time of a queue that is
-/// used up (SIGXCPU) are noted in `interrupted`, and a closed pipe or a file that may not grow are errors of the one who writes.
+/// From now on Ctrl-C, SIGTERM, a closed terminal (SIGHUP, unless nohup has it ignored), SIGUSR1 and the processor time
+/// of a queue that is used up (SIGXCPU) are noted in `interrupted`, and a closed pipe or a file that may not grow are
+/// errors of the one who writes.
 void heed_signals();
 
-/// Whether this signal asks a run to end in order. Runs heed them from their first lines on: one that such a signal has killed had not begun.
+/// Whether this signal asks a run to end in order. Runs heed them from their first lines on: one that such a signal has
+/// killed had not begun.
 bool ends_by_asking(int number);
 
-/// What heed_signals notes does again what it did before; what is ignored stays ignored. For a child, until it becomes another program.
+/// What heed_signals notes does again what it did before; what is ignored stays ignored. For a child, until it becomes
+/// another program.
 void default_signals();
 
 }  // namespace beadwork

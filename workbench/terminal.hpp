@@ -1,5 +1,6 @@
 #pragma once
-// What the verbs say. Everything goes through here, so that no deck, path or plugin can send a terminal what is no text.
+// What the verbs say. Everything goes through here, so that no deck, path or plugin can send a terminal what is no
+// text.
 
 #include <fmt/format.h>
 

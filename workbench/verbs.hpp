@@ -18,8 +18,9 @@ using Words = std::vector<std::string>;
 
 /// What was typed, word by word, as a line that can be pasted into a shell.
 std::string command_line(const Words& words);
-/// `run` as it was typed, to go on or to begin again; where it is a part of a batch, that batch's command: it leaves alone what is done, goes on
-/// with what has a checkpoint and was interrupted or stopped by the machine, and begins the rest anew.
+/// `run` as it was typed, to go on or to begin again; where it is a part of a batch, that batch's command: it leaves
+/// alone what is done, goes on with what has a checkpoint and was interrupted or stopped by the machine, and begins the
+/// rest anew.
 Commands commands_of(const Words& words, const std::string& batch);
 
 void add_run(CLI::App& app, Chosen& chosen, const Words& words);

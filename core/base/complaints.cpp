@@ -11,9 +11,9 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::size_t most_shown = 50;    // a deck of another program complains about every line
+constexpr std::size_t most_shown = 50;         // a deck of another program complains about every line
 constexpr std::size_t longest_message = 2000;  // bytes; what is longer quotes some value of megabytes
-constexpr std::size_t widest_line = 160;  // columns; of longer lines the part around the caret is shown
+constexpr std::size_t widest_line = 160;       // columns; of longer lines the part around the caret is shown
 
 std::string_view line_of(std::string_view text, int line) {
   std::size_t begin = 0;
@@ -57,8 +57,7 @@ std::string excerpt(const Location& at) {
     shown += piece;
     if (column < at.column) padding += piece == "\t" ? "\t" : std::string(length > 1 ? 1 : piece.size(), ' ');
   }
-  if (column + 1 < at.column)
-    padding.append(static_cast<std::size_t>(at.column - column - 1), ' ');  // behind its end
+  if (column + 1 < at.column) padding.append(static_cast<std::size_t>(at.column - column - 1), ' ');  // behind its end
   return shown + "\n" + padding + "^\n";
 }
 
@@ -96,8 +95,7 @@ std::vector<Complaints::Complaint> Complaints::in_order() const {
   using Key = std::tuple<std::size_t, int, int>;
   std::vector<std::pair<Key, Complaint>> keyed;
   for (const Complaint& each : list_) keyed.push_back({{file(each), each.at.line, each.at.column}, each});
-  std::stable_sort(keyed.begin(), keyed.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Complaint> sorted;
   for (auto& each : keyed) sorted.push_back(std::move(each.second));
   return sorted;

@@ -10,7 +10,8 @@
 namespace beadwork {
 
 struct Headway {
-  std::string work;           ///< what is being done: "filling 'matrix'", "stage 'pull'"; its time to go is found anew when it changes
+  std::string
+      work;  ///< what is being done: "filling 'matrix'", "stage 'pull'"; its time to go is found anew when it changes
   std::string detail;         ///< where it stands: "step 1200, 3 breaks"
   std::optional<Real> share;  ///< of the work that is done, 0 to 1; nothing where nobody can know
   bool at_most = false;       ///< the work may end sooner, by a condition

@@ -20,7 +20,8 @@ void Log::say_once(const std::string& subject, const std::string& line) {
 void Log::conclude() {
   for (const Heard& heard : heard_) {
     if (heard.more == 1) say_("in the end " + heard.newest);
-    if (heard.more > 1) say_(fmt::format("in the end {} ({} such lines before this one were left out)", heard.newest, heard.more - 1));
+    if (heard.more > 1)
+      say_(fmt::format("in the end {} ({} such lines before this one were left out)", heard.newest, heard.more - 1));
   }
   heard_.clear();
 }

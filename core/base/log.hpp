@@ -18,8 +18,8 @@ class Log {
   void say(const std::string& line) const { say_(line); }
   void warn(const std::string& line) const { warn_(line); }
 
-  /// For what may come again and again: says the first line on `subject`, and keeps the newest of those that follow. A line that says
-  /// the same as the one before it does not count.
+  /// For what may come again and again: says the first line on `subject`, and keeps the newest of those that follow. A
+  /// line that says the same as the one before it does not count.
   void say_once(const std::string& subject, const std::string& line);
   /// Says of each subject on which more was heard the newest line, and how many were left out before it.
   void conclude();

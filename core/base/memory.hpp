@@ -5,8 +5,8 @@
 
 namespace beadwork {
 
-/// The memory that this process may use at most [bytes]: that of the machine, or less where the process is limited (ulimit -v,
-/// a control group such as those of Slurm and of containers).
+/// The memory that this process may use at most [bytes]: that of the machine, or less where the process is limited
+/// (ulimit -v, a control group such as those of Slurm and of containers).
 double memory_at_most();
 
 /// Why `things` ("elements") of `bytes` each and so many of them cannot be held in `memory`; empty if they can.

@@ -1,6 +1,7 @@
 #pragma once
-// Several numbers at once, one of each bond or element in hand: what a law is written over when it runs in a vector loop.
-// It does what lane.hpp asks of a number, lane by lane, in the same operations as a scalar: so the bits are the same.
+// Several numbers at once, one of each bond or element in hand: what a law is written over when it runs in a vector
+// loop. It does what lane.hpp asks of a number, lane by lane, in the same operations as a scalar: so the bits are the
+// same.
 //
 // Its width is that of the instruction set that the file is compiled for; a plugin library is compiled for several and
 // the widest that the processor has is loaded (docs/decisions/instruction-sets.md). Compiled for the baseline,
@@ -83,7 +84,8 @@ struct Pack {
 
   Pack() = default;
   [[gnu::always_inline]] Pack(Native native) : v(native) {}
-  [[gnu::always_inline]] Pack(Real all) : v(static_cast<N>(all) - Native{}) {}  // g++ makes a loop over lanes sixteen masked moves
+  [[gnu::always_inline]] Pack(Real all)
+      : v(static_cast<N>(all) - Native{}) {}  // g++ makes a loop over lanes sixteen masked moves
   [[gnu::always_inline]] static Pack load(const N* from) {
     Pack p;
     std::memcpy(&p.v, from, sizeof(Native));
@@ -101,7 +103,9 @@ struct Pack {
   [[gnu::always_inline]] friend Mask<W, N> operator<=(const Pack& a, const Pack& b) { return {a.v <= b.v}; }
   [[gnu::always_inline]] friend Mask<W, N> operator>=(const Pack& a, const Pack& b) { return {a.v >= b.v}; }
 
-  [[gnu::always_inline]] friend Pack select(const Mask<W, N>& mask, const Pack& a, const Pack& b) { return {mask.m ? a.v : b.v}; }
+  [[gnu::always_inline]] friend Pack select(const Mask<W, N>& mask, const Pack& a, const Pack& b) {
+    return {mask.m ? a.v : b.v};
+  }
   [[gnu::always_inline]] friend Pack min(const Pack& a, const Pack& b) { return {b.v < a.v ? b.v : a.v}; }
   [[gnu::always_inline]] friend Pack max(const Pack& a, const Pack& b) { return {a.v < b.v ? b.v : a.v}; }
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) {
@@ -158,7 +162,8 @@ template <int W>
     const auto AB = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
     const auto cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
     const auto CD = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-    return {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13), __builtin_shufflevector(AB, CD, 0, 1, 8, 9, 4, 5, 12, 13),
+    return {__builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13),
+            __builtin_shufflevector(AB, CD, 0, 1, 8, 9, 4, 5, 12, 13),
             __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15),
             __builtin_shufflevector(AB, CD, 2, 3, 10, 11, 6, 7, 14, 15)};
   }
@@ -183,7 +188,8 @@ template <int W>
 [[gnu::always_inline]] inline std::array<Quad, W> rows(const std::array<Pack<W>, 4>& columns) {
   const std::array<Pack<W>, 4> turned = transpose<W>(columns);
   std::array<Quad, W> out;
-  for (int k = 0; k < W; ++k) out[static_cast<std::size_t>(k)] = part<W>(turned[static_cast<std::size_t>(k % 4)], k / 4);
+  for (int k = 0; k < W; ++k)
+    out[static_cast<std::size_t>(k)] = part<W>(turned[static_cast<std::size_t>(k % 4)], k / 4);
   return out;
 }
 
@@ -192,10 +198,18 @@ template <int W>
 [[gnu::always_inline]] inline std::array<Pack<W>, W> rows_of_eight(const std::array<Pack<W>, 8>& c) {
   static_assert(W == 8);
   using V = typename Pack<W>::Native;
-  const auto low = [](const Pack<W>& a, const Pack<W>& b) __attribute__((always_inline)) { return V(__builtin_shufflevector(a.v, b.v, 0, 8, 2, 10, 4, 12, 6, 14)); };
-  const auto high = [](const Pack<W>& a, const Pack<W>& b) __attribute__((always_inline)) { return V(__builtin_shufflevector(a.v, b.v, 1, 9, 3, 11, 5, 13, 7, 15)); };
-  const auto even = [](const V& a, const V& b) __attribute__((always_inline)) { return V(__builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13)); };
-  const auto odd = [](const V& a, const V& b) __attribute__((always_inline)) { return V(__builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15)); };
+  const auto low = [](const Pack<W>& a, const Pack<W>& b) __attribute__((always_inline)) {
+    return V(__builtin_shufflevector(a.v, b.v, 0, 8, 2, 10, 4, 12, 6, 14));
+  };
+  const auto high = [](const Pack<W>& a, const Pack<W>& b) __attribute__((always_inline)) {
+    return V(__builtin_shufflevector(a.v, b.v, 1, 9, 3, 11, 5, 13, 7, 15));
+  };
+  const auto even = [](const V& a, const V& b) __attribute__((always_inline)) {
+    return V(__builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13));
+  };
+  const auto odd = [](const V& a, const V& b) __attribute__((always_inline)) {
+    return V(__builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15));
+  };
   const V a = low(c[0], c[1]), b = low(c[2], c[3]), d = low(c[4], c[5]), e = low(c[6], c[7]);
   const V A = high(c[0], c[1]), B = high(c[2], c[3]), D = high(c[4], c[5]), E = high(c[6], c[7]);
   const V ab = even(a, b), de = even(d, e), ba = odd(a, b), ed = odd(d, e);
@@ -230,6 +244,14 @@ template <bool upper, int W>
 namespace Eigen {
 template <int W, class N>
 struct NumTraits<beadwork::Pack<W, N>> : GenericNumTraits<beadwork::Pack<W, N>> {
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 1,
+    AddCost = 1,
+    MulCost = 1
+  };
 };
 }  // namespace Eigen

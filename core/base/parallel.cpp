@@ -27,9 +27,9 @@ void relax() {
 #endif
 }
 
-// How long a thread looks for what it waits for before it goes to sleep. The next loop of a step comes within microseconds, and to be
-// woken takes longer than that; but where other programs want the processor, what is waited for cannot come while one looks. So the time
-// halves whenever it was in vain, and doubles when it was not.
+// How long a thread looks for what it waits for before it goes to sleep. The next loop of a step comes within
+// microseconds, and to be woken takes longer than that; but where other programs want the processor, what is waited for
+// cannot come while one looks. So the time halves whenever it was in vain, and doubles when it was not.
 class Patience {
  public:
   explicit Patience(bool any) : most_(any ? 100'000 : 0), now_(most_) {}
@@ -56,12 +56,13 @@ class Patience {
   int most_, now_;  // [ns]
 };
 
-// One thread leads: it opens the gate for a loop, does its part, closes the gate and waits for those that came in. A helper that sleeps,
-// or that has no processor, does not come in, and nobody waits for it: each thread has pieces of its own, so that it finds in its cache
-// what it has left there, and then takes those that others have not begun.
+// One thread leads: it opens the gate for a loop, does its part, closes the gate and waits for those that came in. A
+// helper that sleeps, or that has no processor, does not come in, and nobody waits for it: each thread has pieces of
+// its own, so that it finds in its cache what it has left there, and then takes those that others have not begun.
 class Team {
  public:
-  explicit Team(int size) : own_(static_cast<std::size_t>(size)), spins_(size <= allowed_processors()), patience_(spins_) {
+  explicit Team(int size)
+      : own_(static_cast<std::size_t>(size)), spins_(size <= allowed_processors()), patience_(spins_) {
     sigset_t all, before;  // signals are for the thread that leads
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -103,7 +104,9 @@ class Team {
   static constexpr std::uint64_t open = std::uint64_t{1} << 31;
   static std::uint64_t inside_of(std::uint64_t gate) { return gate & (open - 1); }
   static std::uint32_t generation_of(std::uint64_t gate) { return static_cast<std::uint32_t>(gate >> 32); }
-  std::uint64_t next_generation() const { return (gate_.load(std::memory_order_relaxed) / (2 * open) + 1) * (2 * open); }
+  std::uint64_t next_generation() const {
+    return (gate_.load(std::memory_order_relaxed) / (2 * open) + 1) * (2 * open);
+  }
 
   struct alignas(128) Own {
     std::atomic<std::int64_t> next{0};
@@ -167,14 +170,12 @@ class Team {
     inside = false;
   }
 
-  void attempt(std::int64_t begin, std::int64_t end) try {
-      piece_(loop_, begin, end);
-    } catch (...) {
-      const std::lock_guard lock(failing_);
-      if (begin >= failed_at_) return;
-      failed_at_ = begin;
-      failure_ = std::current_exception();
-    }
+  void attempt(std::int64_t begin, std::int64_t end) try { piece_(loop_, begin, end); } catch (...) {
+    const std::lock_guard lock(failing_);
+    if (begin >= failed_at_) return;
+    failed_at_ = begin;
+    failure_ = std::current_exception();
+  }
 
   std::vector<Own> own_;
   const bool spins_;

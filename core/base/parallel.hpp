@@ -1,6 +1,6 @@
 #pragma once
-// Loops that the threads share. All threads of Beadwork work here and nowhere else, so what is decided here of how they wait for one
-// another holds everywhere (docs/decisions/threads-that-wait.md).
+// Loops that the threads share. All threads of Beadwork work here and nowhere else, so what is decided here of how they
+// wait for one another holds everywhere (docs/decisions/threads-that-wait.md).
 
 #include <atomic>
 #include <cstdint>
@@ -20,13 +20,13 @@ int threads_in_use();
 bool in_shared_loop();
 
 namespace parallel {
-/// `piece(loop, begin, end)` on pieces that together are 0 ... count - 1, each once, by some thread. Returns when all are done. What a
-/// piece throws is thrown again, of several pieces what the first of them threw: as without threads.
+/// `piece(loop, begin, end)` on pieces that together are 0 ... count - 1, each once, by some thread. Returns when all
+/// are done. What a piece throws is thrown again, of several pieces what the first of them threw: as without threads.
 void share(std::int64_t count, void (*piece)(const void* loop, std::int64_t begin, std::int64_t end), const void* loop);
 }  // namespace parallel
 
-/// f(0) ... f(count - 1), each by some thread; by this one alone where there are less than `fewest`. To share costs some
-/// hundred nanoseconds: as much as a whole step of a small scene.
+/// f(0) ... f(count - 1), each by some thread; by this one alone where there are less than `fewest`. To share costs
+/// some hundred nanoseconds: as much as a whole step of a small scene.
 template <class Count, class F>
 void each_shared(Count count, const F& f, std::type_identity_t<Count> fewest = 2) {
   if (count < fewest || threads_in_use() == 1) {
@@ -56,8 +56,8 @@ bool any_shared(Count count, const F& f, std::type_identity_t<Count> fewest = 2)
   return found;
 }
 
-/// `f(begin, end, sum)` on blocks of 0 ... count - 1, each block with a sum of its own, which are then added in their order: the bits do
-/// not depend on the threads.
+/// `f(begin, end, sum)` on blocks of 0 ... count - 1, each block with a sum of its own, which are then added in their
+/// order: the bits do not depend on the threads.
 template <class Sum, class Count, class F>
 Sum sum_shared(Count count, Count block, const F& f, std::type_identity_t<Count> fewest = 2) {
   const Count blocks = (count + block - 1) / block;

@@ -34,8 +34,8 @@ double share_of_v1(const fs::path& group) {
   return quota / period;
 }
 
-// Of a group and of all groups around it. Inside of a container the path may be one of the host that is not there: then what is left is
-// the root, which is the container's own group.
+// Of a group and of all groups around it. Inside of a container the path may be one of the host that is not there: then
+// what is left is the root, which is the container's own group.
 template <class Share>
 double least_up_to_root(const fs::path& mount, const std::string& group, const Share& share) {
   double least = share(mount);
@@ -57,9 +57,11 @@ double share_of_groups(const fs::path& root) {
     const std::string controllers = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
     const fs::path mounts = root / "sys/fs/cgroup";
     if (controllers.empty()) {
-      for (const fs::path& mount : {mounts, mounts / "unified"}) least = std::min(least, least_up_to_root(mount, group, share_of_v2));
+      for (const fs::path& mount : {mounts, mounts / "unified"})
+        least = std::min(least, least_up_to_root(mount, group, share_of_v2));
     } else if (("," + controllers + ",").find(",cpu,") != std::string::npos) {
-      for (const fs::path& mount : {mounts / controllers, mounts / "cpu"}) least = std::min(least, least_up_to_root(mount, group, share_of_v1));
+      for (const fs::path& mount : {mounts / controllers, mounts / "cpu"})
+        least = std::min(least, least_up_to_root(mount, group, share_of_v1));
     }
   }
   return least;
@@ -90,7 +92,8 @@ Limits Limits::of_this_process() {
 
 int allowed_processors(const Limits& limits) {
   double least = std::min<double>(limits.affinity, std::ceil(share_of_groups(limits.root) - 1e-6));
-  for (const char* name : {"OMP_NUM_THREADS", "SLURM_CPUS_PER_TASK"}) least = std::min(least, number_of(limits.variable(name)));
+  for (const char* name : {"OMP_NUM_THREADS", "SLURM_CPUS_PER_TASK"})
+    least = std::min(least, number_of(limits.variable(name)));
   return static_cast<int>(std::max(1., least));
 }
 

@@ -15,8 +15,9 @@ struct Limits {
   static Limits of_this_process();
 };
 
-/// The least of: the processors it may run on (affinity), the share of time that its control group gets (cgroup v1 or v2, of all groups
-/// around it too; 1.5 processors count as two), OMP_NUM_THREADS and SLURM_CPUS_PER_TASK. At least one.
+/// The least of: the processors it may run on (affinity), the share of time that its control group gets (cgroup v1 or
+/// v2, of all groups around it too; 1.5 processors count as two), OMP_NUM_THREADS and SLURM_CPUS_PER_TASK. At least
+/// one.
 int allowed_processors(const Limits& limits);
 /// Of this process, as it was when it was first asked.
 int allowed_processors();

@@ -6,8 +6,8 @@
 
 namespace beadwork {
 
-/// Why nothing of that name can be read, as far as that shows before it is opened ("there is no such file", "File name too
-/// long", "Permission denied"); or "".
+/// Why nothing of that name can be read, as far as that shows before it is opened ("there is no such file", "File name
+/// too long", "Permission denied"); or "".
 std::string why_unreachable(const std::filesystem::path& place);
 
 /// The same for what must be an ordinary file.

@@ -30,8 +30,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
       row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
     }
     std::swap(before, last);
     std::swap(last, row);
@@ -39,9 +38,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::size_t allowed_edits(std::size_t length) {
-  return length < 2 ? 0 : length <= 4 ? 1 : length <= 8 ? 2 : 3;
-}
+std::size_t allowed_edits(std::size_t length) { return length < 2 ? 0 : length <= 4 ? 1 : length <= 8 ? 2 : 3; }
 
 // Length of the longest common subsequence of a from i on and b from j on, at i * (b.size() + 1) + j.
 std::vector<std::uint32_t> common_lines(std::span<const std::string> a, std::span<const std::string> b) {
@@ -62,8 +59,7 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
   if (word.empty() || word.size() > longest) return {};
   const std::string folded = lower(word);
   const std::string* best = nullptr;
-  std::pair<std::size_t, std::size_t> best_edits{allowed_edits(word.size()),
-                                                 longest};  // case folded, then exact
+  std::pair<std::size_t, std::size_t> best_edits{allowed_edits(word.size()), longest};  // case folded, then exact
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
     const std::pair edits{distance(folded, lower(candidate)), distance(word, candidate)};
@@ -76,12 +72,13 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
   constexpr std::size_t telling = 3;  // letters of a part that says which whole is meant
   if (word.size() < telling) return {};
   for (const std::string& candidate : candidates)
-    if (lower(candidate).find(folded) != std::string::npos && (!best || candidate.size() < best->size())) best = &candidate;
+    if (lower(candidate).find(folded) != std::string::npos && (!best || candidate.size() < best->size()))
+      best = &candidate;
   return best ? *best : std::string();
 }
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
-                         std::string_view open, std::string_view close) {
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates, std::string_view open,
+                         std::string_view close) {
   constexpr std::size_t short_list = 12;
   if (const std::string near = closest(word, candidates); !near.empty())
     return ". Did you mean " + std::string(open) + near + std::string(close) + "?";
@@ -152,12 +149,14 @@ std::string snake_from_kebab(std::string_view name) {
 
 bool is_plain_name(std::string_view name) {
   const auto plain = [](unsigned char c) { return c > ' ' && c != 127 && c != '/' && c != '\\' && c != '"'; };
-  return name.size() <= 100 && name.find_first_not_of('.') != std::string_view::npos && std::all_of(name.begin(), name.end(), plain);
+  return name.size() <= 100 && name.find_first_not_of('.') != std::string_view::npos &&
+         std::all_of(name.begin(), name.end(), plain);
 }
 
 std::string shell_quoted(std::string_view word) {
   const auto is_safe = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("_./:,+@%=-").find(c) != std::string_view::npos;
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_./:,+@%=-").find(c) != std::string_view::npos;
   };
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_safe)) return std::string(word);
   // A line break in a value must not begin a command.
@@ -207,7 +206,8 @@ std::string xml_escaped(std::string_view text) {
 
 std::vector<OddLine> odd_lines(const std::vector<std::string>& first, const std::vector<std::string>& second) {
   const auto [head1, head2] = std::mismatch(first.begin(), first.end(), second.begin(), second.end());
-  const auto [tail1, tail2] = std::mismatch(first.rbegin(), std::reverse_iterator(head1), second.rbegin(), std::reverse_iterator(head2));
+  const auto [tail1, tail2] =
+      std::mismatch(first.rbegin(), std::reverse_iterator(head1), second.rbegin(), std::reverse_iterator(head2));
   const std::span a(head1, tail1.base()), b(head2, tail2.base());
   const auto head = static_cast<std::size_t>(head1 - first.begin());
   std::vector<OddLine> odd;

@@ -14,8 +14,8 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
 
 /// What a complaint about an unknown name ends with: ". Did you mean <beam>?" or, where nothing is near and
 /// the list is short, "; known: beam, spring". `open` and `close` stand around the suggestion.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
-                         std::string_view open = "'", std::string_view close = "'");
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates, std::string_view open = "'",
+                         std::string_view close = "'");
 
 /// What separates words. Blanks beyond ASCII become these where a text comes in (with_plain_blanks in utf8.hpp).
 inline constexpr std::string_view blanks = " \t\r\n\f\v";
@@ -36,7 +36,8 @@ std::vector<std::string> split(std::string_view text, char separator);  ///< kee
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 std::string kebab_from_snake(std::string_view name);  ///< free_filling -> free-filling
 std::string snake_from_kebab(std::string_view name);
-std::string shell_quoted(std::string_view word);  ///< as one word of one line of bash; as it is where that needs no quotes
+std::string shell_quoted(
+    std::string_view word);  ///< as one word of one line of bash; as it is where that needs no quotes
 std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes; safe_text
 
 /// Whether this can name a set, a family or a curve: names stand in lists, in files and their names.

@@ -27,18 +27,16 @@ struct NamedDimension {
 };
 
 const NamedDimension friendly_names[] = {
-    {"N", {{1, 1, -2}}},      {"Pa", {{-1, 1, -2}}},        {"J", {{2, 1, -2}}},
-    {"W", {{2, 1, -3}}},      {"N/m", {{0, 1, -2}}},        {"Pa/m", {{-2, 1, -2}}},
-    {"J/kg", {{2, 0, -2}}},   {"Pa.s", {{-1, 1, -1}}},      {"Pa.m^0.5", {{-0.5, 1, -2}}},
-    {"N/m^3", {{-2, 1, -2}}}, {"J/K", {{2, 1, -2, 0, -1}}},
+    {"N", {{1, 1, -2}}},           {"Pa", {{-1, 1, -2}}},    {"J", {{2, 1, -2}}},          {"W", {{2, 1, -3}}},
+    {"N/m", {{0, 1, -2}}},         {"Pa/m", {{-2, 1, -2}}},  {"J/kg", {{2, 0, -2}}},       {"Pa.s", {{-1, 1, -1}}},
+    {"Pa.m^0.5", {{-0.5, 1, -2}}}, {"N/m^3", {{-2, 1, -2}}}, {"J/K", {{2, 1, -2, 0, -1}}},
 };
 
 bool equal_exponents(double a, double b) { return std::abs(a - b) < 1e-9; }
 
 std::string with_exponent(const char* name, double exponent) {
-  return equal_exponents(exponent, 1)
-             ? name
-             : std::string(name) + "^" + format_number(std::round(exponent * 1e6) / 1e6);
+  return equal_exponents(exponent, 1) ? name
+                                      : std::string(name) + "^" + format_number(std::round(exponent * 1e6) / 1e6);
 }
 
 }  // namespace
@@ -78,8 +76,8 @@ std::string Dimension::name() const {
   return (above.empty() ? "1" : above) + below;
 }
 
-// ---- Units: UDUNITS knows their sizes; which names pass (unit_names.hpp) and products are ours, because it takes "m)" for a
-// metre and m^0.5 for 5
+// ---- Units: UDUNITS knows their sizes; which names pass (unit_names.hpp) and products are ours, because it takes "m)"
+// for a metre and m^0.5 for 5
 
 namespace {
 
@@ -105,8 +103,7 @@ ut_status visit_basic(const ut_unit* unit, void* reading) {
   return UT_SUCCESS;
 }
 
-ut_status visit_product(const ut_unit*, int count, const ut_unit* const* basics, const int* powers,
-                        void* reading) {
+ut_status visit_product(const ut_unit*, int count, const ut_unit* const* basics, const int* powers, void* reading) {
   for (int i = 0; i < count; ++i) multiply_basic(basics[i], powers[i], *static_cast<Reading*>(reading));
   return UT_SUCCESS;
 }
@@ -125,8 +122,7 @@ ut_status refuse_logarithm(const ut_unit*, double, const ut_unit*, void* reading
 
 constexpr ut_visitor visitor{visit_basic, visit_product, visit_scaled, refuse_time, refuse_logarithm};
 
-ut_status visit_scaled(const ut_unit*, double scale, const ut_unit* underlying, double offset,
-                       void* reading) {
+ut_status visit_scaled(const ut_unit*, double scale, const ut_unit* underlying, double offset, void* reading) {
   static_cast<Reading*>(reading)->unit.scale *= scale;
   if (offset != 0) static_cast<Reading*>(reading)->usable = false;
   return ut_accept_visitor(underlying, &visitor, reading);
@@ -136,8 +132,7 @@ ut_system* database() {
   ut_set_error_message_handler(ut_ignore);
   static ut_system* const system = ut_read_xml(nullptr);
   if (!system)
-    throw MachineFailure(
-        "cannot read the database of units of UDUNITS-2: install the package libudunits2-data");
+    throw MachineFailure("cannot read the database of units of UDUNITS-2: install the package libudunits2-data");
   return system;
 }
 
@@ -150,8 +145,7 @@ std::optional<Unit> look_up(std::string_view name) {
   const std::lock_guard lock(mutex);
   if (const auto found = known.find(name); found != known.end()) return found->second;
   const std::string spelt(name == "deg" ? "degree" : name);  // UDUNITS knows only the whole word
-  const std::unique_ptr<ut_unit, void (*)(ut_unit*)> unit(ut_parse(database(), spelt.c_str(), UT_UTF8),
-                                                          ut_free);
+  const std::unique_ptr<ut_unit, void (*)(ut_unit*)> unit(ut_parse(database(), spelt.c_str(), UT_UTF8), ut_free);
   if (!unit) return {};
   Reading reading;
   if (ut_accept_visitor(unit.get(), &visitor, &reading) != UT_SUCCESS || !reading.usable) return {};
@@ -170,12 +164,14 @@ double without_dust(double scale) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Letters, %, and the few signs beyond ASCII that stand in names of units: how many bytes one takes here, 0 if none does.
+/// Letters, %, and the few signs beyond ASCII that stand in names of units: how many bytes one takes here, 0 if none
+/// does.
 std::size_t letter_length(std::string_view text) {
   if (text.empty()) return 0;
   const char c = text.front();
   if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%' || c == '_') return 1;
-  for (const std::string_view sign : {"\u00B5", "\u03BC", "\u00B0", "\u03A9", "\u2126", "\u00C5", "\u212B", "\u03C0", "\u2103", "\u2109"})
+  for (const std::string_view sign :
+       {"\u00B5", "\u03BC", "\u00B0", "\u03A9", "\u2126", "\u00C5", "\u212B", "\u03C0", "\u2103", "\u2109"})
     if (text.starts_with(sign)) return sign.size();
   return 0;
 }
@@ -197,11 +193,13 @@ std::size_t joint_length(std::string_view text) {
 
 /// An exponent in raised digits: its value and length; 1 and 0 if there is none.
 std::pair<double, std::size_t> raised_exponent(std::string_view text) {
-  constexpr std::string_view digits[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  constexpr std::string_view digits[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074",
+                                         "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
   constexpr std::string_view minus = "\u207B";
   const std::size_t begin = text.starts_with(minus) ? minus.size() : 0;
   for (int digit = 0; digit < 10; ++digit)
-    if (text.substr(begin).starts_with(digits[digit])) return {begin > 0 ? -digit : digit, begin + digits[digit].size()};
+    if (text.substr(begin).starts_with(digits[digit]))
+      return {begin > 0 ? -digit : digit, begin + digits[digit].size()};
   return {1, 0};
 }
 
@@ -226,8 +224,7 @@ std::pair<double, std::size_t> leading_exponent(std::string_view text, Where whe
 }
 
 /// The longest unit that text begins with. `unknown` tells the first name that is none.
-std::optional<LeadingUnit> leading_unit(std::string_view text, Where where,
-                                        std::string_view* unknown = nullptr) {
+std::optional<LeadingUnit> leading_unit(std::string_view text, Where where, std::string_view* unknown = nullptr) {
   LeadingUnit result;
   std::size_t at = 0;
   double sign = 1;
@@ -279,9 +276,7 @@ std::optional<Unit> find_unit(std::string_view text) {
   return found->unit;
 }
 
-std::optional<LeadingUnit> find_leading_unit(std::string_view text) {
-  return leading_unit(text, Where::in_expression);
-}
+std::optional<LeadingUnit> find_leading_unit(std::string_view text) { return leading_unit(text, Where::in_expression); }
 
 std::string why_no_unit(std::string_view text) {
   static const std::vector<std::string> usual{
@@ -295,7 +290,8 @@ std::string why_no_unit(std::string_view text) {
   if (const auto odd = first_lookalike(text)) return quoted + ": it holds " + named_character(text.substr(*odd));
   if (unknown.empty()) return quoted + "; units look like N/mm^3 or J.m-2, without blanks";
   const UnitName name = unit_name(unknown);
-  if (name.verdict == UnitName::Verdict::refused) return "unit \"" + std::string(unknown) + "\" is refused: " + name.instead;
+  if (name.verdict == UnitName::Verdict::refused)
+    return "unit \"" + std::string(unknown) + "\" is refused: " + name.instead;
   const std::string part = unknown == text ? "" : " ('" + std::string(unknown) + "')";
   std::string near = closest(unknown, usual);
   if (near.empty()) near = closest(unknown, accepted_unit_names());

@@ -1,6 +1,6 @@
 #pragma once
-// Quantities and their units. The names of units are those of UDUNITS-2 that have one reading (unit_names.hpp); inside the
-// program every value is in SI.
+// Quantities and their units. The names of units are those of UDUNITS-2 that have one reading (unit_names.hpp); inside
+// the program every value is in SI.
 
 #include <array>
 #include <optional>

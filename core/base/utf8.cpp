@@ -24,24 +24,29 @@ char32_t code_point(std::string_view character) {
 std::string name_of(char32_t code) { return fmt::format("U+{:04X}", static_cast<unsigned>(code)); }
 
 bool is_blank_beyond_ascii(char32_t c) {
-  return c == 0x85 || c == 0xA0 || c == 0x1680 || (c >= 0x2000 && c <= 0x200A) || c == 0x2028 || c == 0x2029 || c == 0x202F || c == 0x205F ||
-         c == 0x3000;
+  return c == 0x85 || c == 0xA0 || c == 0x1680 || (c >= 0x2000 && c <= 0x200A) || c == 0x2028 || c == 0x2029 ||
+         c == 0x202F || c == 0x205F || c == 0x3000;
 }
 
-bool is_control(char32_t c) { return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || (c >= 0x7F && c < 0xA0 && c != 0x85); }
+bool is_control(char32_t c) {
+  return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || (c >= 0x7F && c < 0xA0 && c != 0x85);
+}
 
 bool turns_the_direction(char32_t c) {
   return c == 0x061C || c == 0x200E || c == 0x200F || (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }
 
-/// What Unicode lists as Default_Ignorable_Code_Point (DerivedCoreProperties, version 15): shown as nothing where it is not known. Also the
-/// blank pattern of Braille, which is a character like any other and shows nothing.
+/// What Unicode lists as Default_Ignorable_Code_Point (DerivedCoreProperties, version 15): shown as nothing where it is
+/// not known. Also the blank pattern of Braille, which is a character like any other and shows nothing.
 bool is_shown_as_nothing(char32_t c) {
   constexpr struct {
     char32_t first, last;
-  } ranges[] = {{0xAD, 0xAD},     {0x034F, 0x034F}, {0x061C, 0x061C}, {0x115F, 0x1160}, {0x17B4, 0x17B5},   {0x180B, 0x180F},   {0x200B, 0x200F},  {0x202A, 0x202E}, {0x2060, 0x206F},
-                {0x2800, 0x2800}, {0x3164, 0x3164}, {0xFE00, 0xFE0F}, {0xFEFF, 0xFEFF}, {0xFFA0, 0xFFA0},   {0xFFF0, 0xFFF8},   {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}};
-  return std::any_of(std::begin(ranges), std::end(ranges), [&](const auto& range) { return c >= range.first && c <= range.last; });
+  } ranges[] = {{0xAD, 0xAD},       {0x034F, 0x034F},   {0x061C, 0x061C},  {0x115F, 0x1160}, {0x17B4, 0x17B5},
+                {0x180B, 0x180F},   {0x200B, 0x200F},   {0x202A, 0x202E},  {0x2060, 0x206F}, {0x2800, 0x2800},
+                {0x3164, 0x3164},   {0xFE00, 0xFE0F},   {0xFEFF, 0xFEFF},  {0xFFA0, 0xFFA0}, {0xFFF0, 0xFFF8},
+                {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}};
+  return std::any_of(std::begin(ranges), std::end(ranges),
+                     [&](const auto& range) { return c >= range.first && c <= range.last; });
 }
 
 /// What an invisible character is, or null.
@@ -63,15 +68,17 @@ struct Lookalike {
 };
 
 constexpr Lookalike lookalikes[] = {
-    {0x2010, "-"}, {0x2011, "-"}, {0x2012, "-"}, {0x2013, "-"},  {0x2014, "-"},  {0x2015, "-"},  {0x2212, "-"}, {0xFE63, "-"}, {0xFF0D, "-"},
-    {0xD7, "*"},   {0x2217, "*"}, {0x2715, "*"}, {0xF7, "/"},    {0x2044, "/"},  {0x2215, "/"},  {0xFF0F, "/"}, {0xFF0B, "+"}, {0x2264, "<="},
-    {0x2265, ">="}, {0x2260, "!="}, {0xFF1C, "<"}, {0xFF1E, ">"}, {0xFF1D, "="}, {0x2018, "'"},  {0x2019, "'"}, {0x201A, "'"}, {0x2032, "'"},
-    {0x201C, "\""}, {0x201D, "\""}, {0x201E, "\""}, {0x2033, "\""}, {0xAB, "\""}, {0xBB, "\""},  {0xFF02, "\""}, {0x2026, "..."}, {0xFF0C, ","},
-    {0xFF0E, "."}, {0xFF08, "("}, {0xFF09, ")"}, {0x221A, "sqrt()"}, {0x03C0, "pi"},
+    {0x2010, "-"},  {0x2011, "-"},  {0x2012, "-"},  {0x2013, "-"},  {0x2014, "-"},      {0x2015, "-"},  {0x2212, "-"},
+    {0xFE63, "-"},  {0xFF0D, "-"},  {0xD7, "*"},    {0x2217, "*"},  {0x2715, "*"},      {0xF7, "/"},    {0x2044, "/"},
+    {0x2215, "/"},  {0xFF0F, "/"},  {0xFF0B, "+"},  {0x2264, "<="}, {0x2265, ">="},     {0x2260, "!="}, {0xFF1C, "<"},
+    {0xFF1E, ">"},  {0xFF1D, "="},  {0x2018, "'"},  {0x2019, "'"},  {0x201A, "'"},      {0x2032, "'"},  {0x201C, "\""},
+    {0x201D, "\""}, {0x201E, "\""}, {0x2033, "\""}, {0xAB, "\""},   {0xBB, "\""},       {0xFF02, "\""}, {0x2026, "..."},
+    {0xFF0C, ","},  {0xFF0E, "."},  {0xFF08, "("},  {0xFF09, ")"},  {0x221A, "sqrt()"}, {0x03C0, "pi"},
 };
 
 const char* sign_that_is_meant(char32_t c) {
-  const auto found = std::find_if(std::begin(lookalikes), std::end(lookalikes), [&](const Lookalike& l) { return l.code == c; });
+  const auto found =
+      std::find_if(std::begin(lookalikes), std::end(lookalikes), [&](const Lookalike& l) { return l.code == c; });
   return found == std::end(lookalikes) ? nullptr : found->sign;
 }
 
@@ -90,7 +97,12 @@ void each_character(std::string_view text, const Visit& visit) {
 std::size_t character_length(std::string_view text) {
   if (text.empty()) return 0;
   const auto first = static_cast<unsigned char>(text[0]);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
   if (length > text.size()) return 0;
   for (std::size_t k = 1; k < length; ++k)
     if (!continues(text[k])) return 0;
@@ -144,7 +156,8 @@ std::string safe_text(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   each_character(text, [&](std::size_t at, std::size_t length, char32_t code) {
-    const bool is_odd = length == 0 || code == '\r' || code == 0x85 || is_control(code) || turns_the_direction(code) || (code & 0xFFFEU) == 0xFFFEU;
+    const bool is_odd = length == 0 || code == '\r' || code == 0x85 || is_control(code) || turns_the_direction(code) ||
+                        (code & 0xFFFEU) == 0xFFFEU;
     safe += is_odd ? "\uFFFD" : text.substr(at, length);
     return false;
   });

@@ -67,8 +67,8 @@ class DeckReader {
     const int before = complaints_.errors();
     for (const Attribute& each : node.attributes)
       if (std::find(allowed.begin(), allowed.end(), each.name) == allowed.end())
-        complaints_.error(each.name_at, "no attribute '" + each.name + "' in <" + node.tag + ">" +
-                                            did_you_mean(each.name, allowed));
+        complaints_.error(each.name_at,
+                          "no attribute '" + each.name + "' in <" + node.tag + ">" + did_you_mean(each.name, allowed));
     for (const std::string& name : allowed) {
       const Attribute* found = node.find(name);
       if (!found)
@@ -76,15 +76,13 @@ class DeckReader {
       else if (trim(found->value).empty())
         complaints_.error(found->value_at, "'" + name + "' is empty");
     }
-    for (const auto& child : node.children)
-      complaints_.error(child->at, "nothing may stand inside <" + node.tag + ">");
+    for (const auto& child : node.children) complaints_.error(child->at, "nothing may stand inside <" + node.tag + ">");
     return complaints_.errors() == before;
   }
 
   void take_parameter(const Node& node, bool is_in_scene) {
     if (!is_in_scene)
-      complaints_.error(node.at,
-                        "parameters hold for the whole deck: <parameter> stands directly in <scene>");
+      complaints_.error(node.at, "parameters hold for the whole deck: <parameter> stands directly in <scene>");
     if (!has_just(node, {"name", "value"})) return miss();
     const Attribute &name = *node.find("name"), &value = *node.find("value");
     if (const std::string why = why_no_name(name.value); !why.empty()) {

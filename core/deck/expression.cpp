@@ -19,13 +19,11 @@ constexpr std::size_t most_tokens = 4000;
 
 }  // namespace
 
-std::optional<Expression> Expression::compile(std::string_view text, const Location& start,
-                                              const Scope& scope, std::span<const Variable> variables,
-                                              Complaints& complaints) {
+std::optional<Expression> Expression::compile(std::string_view text, const Location& start, const Scope& scope,
+                                              std::span<const Variable> variables, Complaints& complaints) {
   try {
     if (text.size() > longest_text)
-      throw ExpressionMistake(
-          0, "this expression is longer than " + std::to_string(longest_text) + " characters");
+      throw ExpressionMistake(0, "this expression is longer than " + std::to_string(longest_text) + " characters");
     const std::vector<Token> tokens = tokens_of(text, scope, variables);
     if (tokens.empty()) throw ExpressionMistake(0, "an expression is wanted here");
     if (tokens.size() > most_tokens)
@@ -46,7 +44,8 @@ std::optional<Expression> Expression::compile(std::string_view text, const Locat
     }
     const int result = record(tokens, handles, text.size(), recorder);
     const Operand& whole = recorder.at(result);
-    if (whole.is_condition && std::isnan(whole.value)) throw ExpressionMistake(whole.begin, "this condition compares what is no number");
+    if (whole.is_condition && std::isnan(whole.value))
+      throw ExpressionMistake(whole.begin, "this condition compares what is no number");
     Expression expression;
     expression.text_ = spelt_in_si(tokens, values);
     expression.dimension_ = whole.dimension;
@@ -69,7 +68,8 @@ std::optional<Expression> Expression::compile(const Attribute& attribute, const 
 bool Expression::has_dimension(const Dimension& wanted) const {
   if (is_condition_) return false;
   const Step& last = steps_.back();
-  const bool is_zero = dimension_.is_plain() && static_cast<Operation>(last.operation) == Operation::constant && last.value == 0;
+  const bool is_zero =
+      dimension_.is_plain() && static_cast<Operation>(last.operation) == Operation::constant && last.value == 0;
   return is_zero || dimension_ == wanted;
 }
 

@@ -45,10 +45,10 @@ class Expression {
   bool is_condition() const { return is_condition_; }  ///< a comparison, not a number
   /// Is it a number of this dimension? A 0 without a unit has any.
   bool has_dimension(const Dimension& wanted) const;
-  bool uses(std::size_t variable) const;               ///< does its value depend on this one
+  bool uses(std::size_t variable) const;  ///< does its value depend on this one
   /// Of a condition whose parts are joined by "and": each of them, without its text; of another one itself.
   std::vector<Expression> parts() const;
-  const std::string& text() const { return text_; }    ///< in SI, with every parameter replaced by its value
+  const std::string& text() const { return text_; }  ///< in SI, with every parameter replaced by its value
 
   /// In SI; a condition gives 1 or 0. `si_values` are in the order of the variables. The result may be NaN or
   /// infinite (a condition on a NaN is NaN): it is the caller who knows how to say so.

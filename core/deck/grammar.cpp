@@ -42,8 +42,7 @@ void define_operators(mu::Parser& parser) {
   parser.EnableBuiltInOprt(false);
   parser.ClearInfixOprt();
   const auto operators = [&](const char* sign, mu::fun_type2 function, int precedence) {
-    parser.DefineOprt(sign, function, static_cast<unsigned>(precedence),
-                      sign[0] == '^' ? mu::oaRIGHT : mu::oaLEFT);
+    parser.DefineOprt(sign, function, static_cast<unsigned>(precedence), sign[0] == '^' ? mu::oaRIGHT : mu::oaLEFT);
   };
   operators("||", record_binary<either>, mu::prLOR);
   operators("&&", record_binary<both>, mu::prLAND);
@@ -67,9 +66,7 @@ void define_operators(mu::Parser& parser) {
 void define_functions(mu::Parser& parser) {
   using enum Operation;
   parser.ClearFun();
-  const auto function = [&](const char* name, mu::fun_type1 callback) {
-    parser.DefineFun(name, callback, false);
-  };
+  const auto function = [&](const char* name, mu::fun_type1 callback) { parser.DefineFun(name, callback, false); };
   function("sqrt", record_unary<square_root>);
   function("abs", record_unary<absolute>);
   function("sin", record_unary<sine>);
@@ -94,33 +91,24 @@ void define_functions(mu::Parser& parser) {
 
 std::string in_plain_words(const mu::ParserError& error) {
   switch (error.GetCode()) {
-    case mu::ecUNEXPECTED_EOF:
-      return "the expression ends too early";
+    case mu::ecUNEXPECTED_EOF: return "the expression ends too early";
     case mu::ecUNASSIGNABLE_TOKEN:
-    case mu::ecUNEXPECTED_OPERATOR:
-      return "an operator cannot stand here";
+    case mu::ecUNEXPECTED_OPERATOR: return "an operator cannot stand here";
     case mu::ecUNEXPECTED_VAL:
     case mu::ecUNEXPECTED_VAR:
-    case mu::ecUNEXPECTED_FUN:
-      return "an operator is missing before this";
-    case mu::ecUNEXPECTED_PARENS:
-      return "a bracket cannot stand here";
-    case mu::ecMISSING_PARENS:
-      return "a bracket is not closed";
-    case mu::ecUNEXPECTED_ARG_SEP:
-      return "a comma cannot stand here";
-    case mu::ecTOO_MANY_PARAMS:
-      return "this function has too many arguments";
-    case mu::ecTOO_FEW_PARAMS:
-      return "this function has too few arguments";
-    default:
-      return "cannot be understood";
+    case mu::ecUNEXPECTED_FUN: return "an operator is missing before this";
+    case mu::ecUNEXPECTED_PARENS: return "a bracket cannot stand here";
+    case mu::ecMISSING_PARENS: return "a bracket is not closed";
+    case mu::ecUNEXPECTED_ARG_SEP: return "a comma cannot stand here";
+    case mu::ecTOO_MANY_PARAMS: return "this function has too many arguments";
+    case mu::ecTOO_FEW_PARAMS: return "this function has too few arguments";
+    default: return "cannot be understood";
   }
 }
 
 /// The tokens as muParser shall read them: leaves become constants v0 v1 ... that hold handles. `origin` tells for each
-/// character which token it came from. muParser takes one sign before an operand: of several + and - one is left, and what
-/// stands behind a `not` gets brackets.
+/// character which token it came from. muParser takes one sign before an operand: of several + and - one is left, and
+/// what stands behind a `not` gets brackets.
 class Translation {
  public:
   explicit Translation(const std::vector<Token>& tokens) : tokens_(tokens) {}
@@ -141,9 +129,13 @@ class Translation {
   std::vector<std::size_t> origin;
 
  private:
-  bool is_sign(std::size_t i, std::string_view text) const { return i < tokens_.size() && tokens_[i].kind == Token::Kind::sign && tokens_[i].text == text; }
+  bool is_sign(std::size_t i, std::string_view text) const {
+    return i < tokens_.size() && tokens_[i].kind == Token::Kind::sign && tokens_[i].text == text;
+  }
   bool is_plus_or_minus(std::size_t i) const { return is_sign(i, "+") || is_sign(i, "-"); }
-  bool begins_operand(std::size_t i) const { return i == 0 || (tokens_[i - 1].kind == Token::Kind::sign && tokens_[i - 1].text != ")"); }
+  bool begins_operand(std::size_t i) const {
+    return i == 0 || (tokens_[i - 1].kind == Token::Kind::sign && tokens_[i - 1].text != ")");
+  }
 
   /// The first token behind the run of + and - before an operand that begins at i; i if there is none.
   std::size_t behind_signs(std::size_t i) const {

@@ -55,8 +55,7 @@ namespace {
 
 class PieceReader {
  public:
-  PieceReader(const Location& start, const Scope& scope, Complaints& complaints,
-              std::optional<ValueMistake>& mistake)
+  PieceReader(const Location& start, const Scope& scope, Complaints& complaints, std::optional<ValueMistake>& mistake)
       : start_(start), scope_(scope), complaints_(complaints), mistake_(mistake) {}
 
   /// Reads one piece; false if that failed.
@@ -101,8 +100,7 @@ class PieceReader {
   bool word(const Piece& piece) {
     double number = 0;
     const std::size_t sign = piece.text.starts_with('+') && !piece.text.starts_with("+-") ? 1 : 0;
-    const char *const begin = piece.text.data() + sign, *const text_end =
-                                                            piece.text.data() + piece.text.size();
+    const char *const begin = piece.text.data() + sign, *const text_end = piece.text.data() + piece.text.size();
     const auto [end, error] = std::from_chars(begin, text_end, number);
     const bool is_number = end != begin && error == std::errc() && std::isfinite(number) &&
                            piece.text.find_first_of("0123456789") != std::string_view::npos;
@@ -113,8 +111,7 @@ class PieceReader {
       values.push_back({{number, {}}, true, true});
       return true;
     }
-    if (find_unit(piece.text) && !values.empty())
-      return unit(piece.text, piece.at);  // "1/s" begins like a number
+    if (find_unit(piece.text) && !values.empty()) return unit(piece.text, piece.at);  // "1/s" begins like a number
     if (!is_number) return unit(piece.text, piece.at);
     if (rest.size() > 1 && rest[0] == ',') return fail(piece.at, "decimals have a point, not a comma");
     values.push_back({{number, {}}, true, true});
@@ -125,12 +122,12 @@ class PieceReader {
   bool unit(std::string_view text, std::size_t at) {
     if (std::string_view("+-*/^()").find(text.front()) != std::string_view::npos)
       return fail(at, "arithmetic stands inside ${ }");
-    if (const auto odd = first_lookalike(text)) return fail(at + *odd, named_character(text.substr(*odd)) + " means nothing here");
+    if (const auto odd = first_lookalike(text))
+      return fail(at + *odd, named_character(text.substr(*odd)) + " means nothing here");
     const auto found = find_unit(text);
     if (!found) return fail(at, values.empty() ? "" : why_no_unit(text));
     if (values.empty()) return fail(at, "a number is missing before the unit");
-    if (!values.back().is_bare)
-      return fail(at, "what stands before \"" + std::string(text) + "\" has a unit already");
+    if (!values.back().is_bare) return fail(at, "what stands before \"" + std::string(text) + "\" has a unit already");
     for (auto value = values.rbegin(); value != values.rend(); ++value) {
       if (!value->is_bare) continue;
       *value = {{found->to_si(value->quantity.value), found->dimension}, false, value->is_literal};
@@ -146,9 +143,8 @@ class PieceReader {
 
 }  // namespace
 
-std::optional<std::vector<Value>> evaluate_pieces(std::string_view text, const Location& start,
-                                                  const Scope& scope, Complaints& complaints,
-                                                  std::optional<ValueMistake>& mistake) {
+std::optional<std::vector<Value>> evaluate_pieces(std::string_view text, const Location& start, const Scope& scope,
+                                                  Complaints& complaints, std::optional<ValueMistake>& mistake) {
   mistake.reset();
   ValueMistake unclosed;
   const auto pieces = pieces_of(text, unclosed);

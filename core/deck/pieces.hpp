@@ -28,8 +28,7 @@ std::optional<std::vector<Piece>> pieces_of(std::string_view text, ValueMistake&
 
 /// The values that a text holds. Nothing if it is none: then either `mistake` says why, or an error in an
 /// expression has been complained about, which leaves `mistake` empty.
-std::optional<std::vector<Value>> evaluate_pieces(std::string_view text, const Location& start,
-                                                  const Scope& scope, Complaints& complaints,
-                                                  std::optional<ValueMistake>& mistake);
+std::optional<std::vector<Value>> evaluate_pieces(std::string_view text, const Location& start, const Scope& scope,
+                                                  Complaints& complaints, std::optional<ValueMistake>& mistake);
 
 }  // namespace beadwork

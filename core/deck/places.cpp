@@ -13,8 +13,8 @@ constexpr std::size_t deepest = 90;                                // TinyXML2 g
 constexpr std::size_t most_tags = 100000, most_attributes = 1000;  // a scene has some hundreds
 
 bool starts_name(char c) {
-  return static_cast<unsigned char>(c) >= 128 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-         c == '_' || c == ':';
+  return static_cast<unsigned char>(c) >= 128 || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+         c == ':';
 }
 bool inside_name(char c) { return starts_name(c) || (c >= '0' && c <= '9') || c == '.' || c == '-'; }
 
@@ -30,8 +30,8 @@ class Counter {
       const char c = text[last_.offset];
       const bool ends_line =
           c == '\n' || (c == '\r' && (last_.offset + 1 == text.size() || text[last_.offset + 1] != '\n'));
-      const bool ends_character = last_.offset + 1 == text.size() ||
-                                  (static_cast<unsigned char>(text[last_.offset + 1]) & 0xC0) != 0x80;
+      const bool ends_character =
+          last_.offset + 1 == text.size() || (static_cast<unsigned char>(text[last_.offset + 1]) & 0xC0) != 0x80;
       if (ends_line) {
         ++last_.line;
         last_.column = 1;
@@ -101,10 +101,10 @@ class Scanner {
 
   void stray_text() {
     const char* const message = "text between tags means nothing here; values are attributes: name=\"value\"";
-    const auto invisible = first_invisible(text_.substr(at_, std::max<std::size_t>(1, character_length(text_.substr(at_)))));
+    const auto invisible =
+        first_invisible(text_.substr(at_, std::max<std::size_t>(1, character_length(text_.substr(at_)))));
     if (invisible) return fail(at_, invisible->words + ", stands here: delete it");
-    if (open_.empty() && tags_.empty())
-      return fail(at_, "this is no XML: it begins with text, not with a tag");
+    if (open_.empty() && tags_.empty()) return fail(at_, "this is no XML: it begins with text, not with a tag");
     complaints_.error(counter_.at(at_), message);
     at_ = std::min(text_.find('<', at_), text_.size());
   }
@@ -135,8 +135,10 @@ class Scanner {
     const std::size_t begin = at_;
     skip_past("<?", "?>", "this is not closed by ?>");
     if (failed_) return;
-    const auto first = plain_.begin() + static_cast<std::ptrdiff_t>(begin), last = plain_.begin() + static_cast<std::ptrdiff_t>(at_);
-    std::replace_if(first, last, [](char c) { return !is_blank(c); }, ' ');
+    const auto first = plain_.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = plain_.begin() + static_cast<std::ptrdiff_t>(at_);
+    std::replace_if(
+        first, last, [](char c) { return !is_blank(c); }, ' ');
   }
 
   void stray_data() {
@@ -229,8 +231,7 @@ class Scanner {
     const Location name_at = counter_.at(name_offset);
     tags_.back().attributes.push_back({name_at, counter_.at(at_)});
     const std::string_view inside = text_.substr(at_, end - at_);
-    for (std::size_t i = inside.find('&'); i != std::string_view::npos && !failed_;
-         i = inside.find('&', i + 1))
+    for (std::size_t i = inside.find('&'); i != std::string_view::npos && !failed_; i = inside.find('&', i + 1))
       if (entity_length(inside.substr(i)) == 0)
         fail(at_ + i, "& begins an entity such as &lt;; for the sign itself write &amp;");
     at_ = end + 1;

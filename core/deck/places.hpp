@@ -22,7 +22,7 @@ struct TagPlace {
 
 struct Markup {
   std::vector<TagPlace> tags;  ///< the opening tags, in document order
-  std::string text;            ///< for TinyXML2, byte for byte as long: without <? ?>, and every blank beyond ASCII is spaces
+  std::string text;  ///< for TinyXML2, byte for byte as long: without <? ?>, and every blank beyond ASCII is spaces
 };
 
 /// Stops at the first thing that is no XML, with an error.

@@ -31,9 +31,10 @@ class Refusal {
 
   std::nullopt_t operator()(const std::string& behind = "", std::size_t at = 0) const {
     const bool of_the_text = behind.starts_with(":");  // how it is written, not what it gives
-    const std::string got = trim(attribute_.value).empty() ? "nothing" : quoted(of_the_text ? attribute_.value : shown_value(attribute_, scope_));
-    complaints_.error(attribute_.place(at),
-                      "'" + attribute_.name + "' wants " + wanted_ + ", got " + got + behind);
+    const std::string got = trim(attribute_.value).empty()
+                                ? "nothing"
+                                : quoted(of_the_text ? attribute_.value : shown_value(attribute_, scope_));
+    complaints_.error(attribute_.place(at), "'" + attribute_.name + "' wants " + wanted_ + ", got " + got + behind);
     return std::nullopt;
   }
 
@@ -57,8 +58,7 @@ std::optional<std::string> objection(const Value& value, std::string_view unit, 
 
 /// Values whose units are these in turn.
 std::optional<std::vector<double>> read_values(const Attribute& attribute, const std::vector<std::string_view>& units,
-                                               const Scope& scope, Complaints& complaints,
-                                               const Refusal& refuse) {
+                                               const Scope& scope, Complaints& complaints, const Refusal& refuse) {
   attribute.used = true;
   std::optional<ValueMistake> mistake;
   const auto values = evaluate_pieces(attribute.value, attribute.value_at, scope, complaints, mistake);
@@ -96,8 +96,7 @@ std::string wanted_by(std::string_view unit) {
   const Dimension dimension = dimension_of(unit);
   if (dimension.is_plain()) return "a plain number";
   for (const Noun& each : nouns)
-    if (dimension == dimension_of(each.unit))
-      return std::string(each.noun) + " such as " + quoted(each.example);
+    if (dimension == dimension_of(each.unit)) return std::string(each.noun) + " such as " + quoted(each.example);
   return std::string(unit);
 }
 
@@ -145,8 +144,8 @@ std::vector<std::size_t> commas_of(std::string_view text) {
 }  // namespace
 
 std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attribute,
-                                                          const std::vector<std::string>& units,
-                                                          const Scope& scope, Complaints& complaints) {
+                                                          const std::vector<std::string>& units, const Scope& scope,
+                                                          Complaints& complaints) {
   std::vector<std::string> example;
   for (const std::string& unit : units) example.push_back("1 " + unit);
   const std::vector<std::string_view> in_turn(units.begin(), units.end());
@@ -164,7 +163,8 @@ std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attri
     const Refusal refuse(row, "rows such as " + quoted(join(example, " ")), scope, complaints);
     auto values = read_values(row, in_turn, scope, complaints, refuse);
     const bool fits = values && values->size() == units.size();
-    if (values && !fits) refuse(values->size() == 1 ? " which is one value" : " which are " + std::to_string(values->size()) + " values");
+    if (values && !fits)
+      refuse(values->size() == 1 ? " which is one value" : " which are " + std::to_string(values->size()) + " values");
     all_right = all_right && fits;
     if (fits) rows.push_back(std::move(*values));
     begin = end + 1;
@@ -174,8 +174,7 @@ std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attri
   return rows;
 }
 
-std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
-                                         Complaints& complaints) {
+std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
   constexpr double largest = 9007199254740992.0;  // 2^53: up to here a double holds every whole number
   const Refusal refuse(attribute, "a whole number", scope, complaints);
   const auto values = read_values(attribute, {"1"}, scope, complaints, refuse);
@@ -201,7 +200,8 @@ std::optional<std::vector<std::string>> read_words(const Attribute& attribute, c
   if (!text) return {};
   std::vector<std::string> words = split_words(*text);
   if (words.size() <= most_words) return words;
-  complaints.error(attribute.value_at, "'" + attribute.name + "' holds more than " + std::to_string(most_words) + " words: data belong into a file");
+  complaints.error(attribute.value_at, "'" + attribute.name + "' holds more than " + std::to_string(most_words) +
+                                           " words: data belong into a file");
   return {};
 }
 
@@ -214,7 +214,8 @@ std::optional<std::vector<std::string>> read_paths(const Attribute& attribute, c
     const bool quotes = rest.front() == '\'' || rest.front() == '"';
     const std::size_t end = quotes ? rest.find(rest.front(), 1) : std::min(rest.find_first_of(blanks), rest.size());
     if (end == std::string_view::npos) {
-      complaints.error(attribute.value_at, "'" + attribute.name + "' has a quote that is not closed, got " + quoted(*text));
+      complaints.error(attribute.value_at,
+                       "'" + attribute.name + "' has a quote that is not closed, got " + quoted(*text));
       return {};
     }
     paths.push_back(path_beside(attribute.value_at, std::string(rest.substr(quotes ? 1 : 0, quotes ? end - 1 : end))));

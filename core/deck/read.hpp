@@ -28,10 +28,9 @@ std::optional<std::vector<double>> read_quantities(const Attribute& attribute, s
                                                    const Scope& scope, Complaints& complaints);
 /// Rows joined by commas, each with one value for each of the units: "0 s 0 m/s, 1 ms 2 m/s".
 std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attribute,
-                                                          const std::vector<std::string>& units,
-                                                          const Scope& scope, Complaints& complaints);
-std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope,
-                                         Complaints& complaints);
+                                                          const std::vector<std::string>& units, const Scope& scope,
+                                                          Complaints& complaints);
+std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope& scope, Complaints& complaints);
 std::optional<bool> read_boolean(const Attribute& attribute, const Scope& scope,
                                  Complaints& complaints);  ///< yes no true false
 /// The text with every ${} replaced: ${name} by the text of the parameter, an expression by its value. Not
@@ -49,7 +48,8 @@ std::optional<std::string> read_choice(const Attribute& attribute, const std::ve
 /// Paths as read_paths takes them.
 std::string text_of_paths(const std::vector<std::string>& paths);
 
-/// What a message says that an attribute holds: its text with every ${} replaced, or as it stands where that does not work.
+/// What a message says that an attribute holds: its text with every ${} replaced, or as it stands where that does not
+/// work.
 std::string shown_value(const Attribute& attribute, const Scope& scope);
 /// How a message names what a unit stands for: `a length such as "1 mm"`, `a plain number`.
 std::string wanted_by(std::string_view unit);

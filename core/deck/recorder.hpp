@@ -43,24 +43,13 @@ class StepRecorder {
     Operand result{{}, false, left.is_constant && right.is_constant, 0, left.begin, right.end};
     switch (operation) {
       case Operation::add:
-      case Operation::subtract:
-        result.dimension = common(left, right);
-        break;
-      case Operation::multiply:
-        result.dimension = number(left).dimension * number(right).dimension;
-        break;
-      case Operation::divide:
-        result.dimension = number(left).dimension / number(right).dimension;
-        break;
-      case Operation::power:
-        result.dimension = powered(number(left), plain(right, "an exponent"));
-        break;
+      case Operation::subtract: result.dimension = common(left, right); break;
+      case Operation::multiply: result.dimension = number(left).dimension * number(right).dimension; break;
+      case Operation::divide: result.dimension = number(left).dimension / number(right).dimension; break;
+      case Operation::power: result.dimension = powered(number(left), plain(right, "an exponent")); break;
       case Operation::both:
-      case Operation::either:
-        condition(left), condition(right), result.is_condition = true;
-        break;
-      default:
-        common(left, right), result.is_condition = true;
+      case Operation::either: condition(left), condition(right), result.is_condition = true; break;
+      default: common(left, right), result.is_condition = true;
     }
     return push(operation, result, a, b);
   }
@@ -70,8 +59,7 @@ class StepRecorder {
     number(operands_[result]);
     for (int i = 1; i < count; ++i) {
       const int next = static_cast<int>(handles[i]);
-      result =
-          push(operation, joined(common(operands_[result], operands_[next]), result, next), result, next);
+      result = push(operation, joined(common(operands_[result], operands_[next]), result, next), result, next);
     }
     return result;
   }
@@ -87,8 +75,7 @@ class StepRecorder {
       condition(result);
     else if (operation == Operation::square_root)
       result.dimension = power(number(result).dimension, 0.5);
-    else if (operation == Operation::negate || operation == Operation::absolute ||
-             operation == Operation::sign)
+    else if (operation == Operation::negate || operation == Operation::absolute || operation == Operation::sign)
       number(result);
     else
       plain(result, "this function");
@@ -131,7 +118,7 @@ class StepRecorder {
   }
 
   Operand joined(const Dimension& dimension, int a, int b) const {
-    return {dimension, false, operands_[a].is_constant && operands_[b].is_constant, 0,
+    return {dimension,          false,           operands_[a].is_constant && operands_[b].is_constant, 0,
             operands_[a].begin, operands_[b].end};
   }
 
@@ -162,15 +149,14 @@ class StepRecorder {
     if (left.is_zero()) return right.dimension;
     const Token& sign = sign_between(left, right);
     const std::string who = sign.text == "," ? "the arguments" : "the two sides of '" + sign.text + "'";
-    throw ExpressionMistake(
-        sign.at, who + " differ: the left is " + kind_of(left) + ", the right is " + kind_of(right));
+    throw ExpressionMistake(sign.at,
+                            who + " differ: the left is " + kind_of(left) + ", the right is " + kind_of(right));
   }
 
   Dimension powered(const Operand& base, const Operand& exponent) const {
     if (base.dimension.is_plain()) return {};
     if (!exponent.is_constant)
-      throw ExpressionMistake(exponent.begin,
-                              "the exponent of a quantity with a unit must be the same everywhere");
+      throw ExpressionMistake(exponent.begin, "the exponent of a quantity with a unit must be the same everywhere");
     return power(base.dimension, exponent.value);
   }
 
@@ -178,8 +164,8 @@ class StepRecorder {
   const Token& sign_between(const Operand& left, const Operand& right) const {
     const Token* found = &tokens_.front();
     for (const Token& token : tokens_)
-      if (token.kind == Token::Kind::sign && token.at >= left.end && token.at < right.begin &&
-          token.text != ")" && token.text != "(") {
+      if (token.kind == Token::Kind::sign && token.at >= left.end && token.at < right.begin && token.text != ")" &&
+          token.text != "(") {
         found = &token;
         break;
       }

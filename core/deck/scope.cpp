@@ -18,8 +18,8 @@ constexpr std::size_t deepest_chain = 100;
 
 void Scope::add(Parameter parameter, Complaints& complaints) {
   if (const Entry* first = find(parameter.name)) {
-    complaints.error(parameter.at, "parameter '" + parameter.name + "' is already defined at " +
-                                       first->parameter.at.where());
+    complaints.error(parameter.at,
+                     "parameter '" + parameter.name + "' is already defined at " + first->parameter.at.where());
   } else {
     index_.emplace(parameter.name, entries_.size());
     entries_.push_back({std::move(parameter), false, {}, {}});
@@ -31,8 +31,8 @@ void Scope::set(std::string_view name, std::string_view text, Complaints& compla
   const auto source = std::make_shared<const Source>(Source{"--set", spelt});
   const auto found = index_.find(name);
   if (found == index_.end())
-    return complaints.error({source, 1, 1, 0}, "the deck has no parameter '" + std::string(name) + "'" +
-                                                   did_you_mean(name, names()));
+    return complaints.error({source, 1, 1, 0},
+                            "the deck has no parameter '" + std::string(name) + "'" + did_you_mean(name, names()));
   const Location at{source, 1, static_cast<int>(name.size()) + 2, name.size() + 1};
   if (const auto invisible = first_invisible(text))
     return complaints.error(locate(at, invisible->at), invisible->words + ", stands here: leave it out");
@@ -55,8 +55,7 @@ std::vector<std::string> Scope::names() const {
 }
 
 /// The entry, marked as running; the caller pops it. Null, with an error, if it is unknown or runs already.
-const Scope::Entry* Scope::start(std::string_view name, const Location& asked_at,
-                                 Complaints& complaints) const {
+const Scope::Entry* Scope::start(std::string_view name, const Location& asked_at, Complaints& complaints) const {
   const Entry* entry = find(name);
   if (!entry) {
     complaints.error(asked_at, "no parameter '" + std::string(name) + "'" + did_you_mean(name, names()));
@@ -67,8 +66,8 @@ const Scope::Entry* Scope::start(std::string_view name, const Location& asked_at
   if (first != running_.end()) {
     std::string circle;
     for (auto each = first; each != running_.end(); ++each) circle += (*each)->parameter.name + " -> ";
-    complaints.error(entry->parameter.text_at, "parameter '" + entry->parameter.name +
-                                                   "' depends on itself: " + circle + entry->parameter.name);
+    complaints.error(entry->parameter.text_at,
+                     "parameter '" + entry->parameter.name + "' depends on itself: " + circle + entry->parameter.name);
     return nullptr;
   }
   if (running_.size() == deepest_chain) {
@@ -101,8 +100,7 @@ std::optional<std::vector<Value>> Scope::values(std::string_view name, const Loc
   return *entry->values;
 }
 
-std::optional<Quantity> Scope::quantity(std::string_view name, const Location& asked_at,
-                                        Complaints& complaints) const {
+std::optional<Quantity> Scope::quantity(std::string_view name, const Location& asked_at, Complaints& complaints) const {
   const auto found = values(name, asked_at, complaints);
   if (!found) return {};
   if (found->size() == 1) return found->front().quantity;
@@ -111,8 +109,7 @@ std::optional<Quantity> Scope::quantity(std::string_view name, const Location& a
   return {};
 }
 
-std::optional<std::string> Scope::text(std::string_view name, const Location& asked_at,
-                                       Complaints& complaints) const {
+std::optional<std::string> Scope::text(std::string_view name, const Location& asked_at, Complaints& complaints) const {
   const Entry* known = find(name);
   if (known && known->text) {
     known->used = true;
@@ -127,7 +124,9 @@ std::optional<std::string> Scope::text(std::string_view name, const Location& as
 
 namespace {
 
-bool stands_in_names(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-'; }
+bool stands_in_names(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-';
+}
 
 /// What may be a name in this text: each run of letters, and where it holds a -, each part from one - to another, as it
 /// may stand for a difference.

@@ -42,15 +42,15 @@ class Scope {
 
   // What a parameter holds; it counts as used from then on. Nothing if it is unknown (an error at
   // `asked_at`), not what is wanted, or depends on itself (an error at the parameter).
-  std::optional<Quantity> quantity(std::string_view name, const Location& asked_at,
-                                   Complaints& complaints) const;
+  std::optional<Quantity> quantity(std::string_view name, const Location& asked_at, Complaints& complaints) const;
   std::optional<std::vector<Value>> values(std::string_view name, const Location& asked_at,
                                            Complaints& complaints) const;
   std::optional<std::string> text(std::string_view name, const Location& asked_at,
                                   Complaints& complaints) const;  ///< every ${} replaced
 
   /// One error for each parameter of the deck file itself that nothing has used. Call it when everything is read. Where
-  /// there are errors already, one that is named somewhere below `root` or in a parameter may only not have been reached.
+  /// there are errors already, one that is named somewhere below `root` or in a parameter may only not have been
+  /// reached.
   void complain_about_unused(const Node& root, Complaints& complaints) const;
 
  private:

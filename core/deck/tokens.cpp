@@ -68,12 +68,10 @@ class Lexer {
     double value = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     at_ = static_cast<std::size_t>(end - text_.data());
-    if (error != std::errc() || !std::isfinite(value))
-      throw ExpressionMistake(begin, "this number is out of range");
+    if (error != std::errc() || !std::isfinite(value)) throw ExpressionMistake(begin, "this number is out of range");
     const Unit unit = unit_behind(begin);
     const std::string_view spelt = text_.substr(begin, at_ - begin);
-    push(
-        {Token::Kind::literal, std::string(spelt), begin, spelt.size(), {unit.to_si(value), unit.dimension}});
+    push({Token::Kind::literal, std::string(spelt), begin, spelt.size(), {unit.to_si(value), unit.dimension}});
   }
 
   /// The unit that follows a number, after blanks; one if none does.
@@ -93,15 +91,15 @@ class Lexer {
     for (const std::string_view name : found->later_names)
       if (is_known(name))
         throw ExpressionMistake(at_, quoted(name) +
-                                         " is both a unit and a name here: put blanks around the operator "
-                                         "if you mean the name, or brackets around the number with its unit");
+                                         " is both a unit and a name here: put blanks around the operator if you mean "
+                                         "the name, or brackets around the number with its unit");
     if (after.size() > 1 && (after[0] == '/' || after[0] == '*') && starts_name(after[1]))
       check_later_unit(at_ + found->length + 1);
     if (after.starts_with('^'))
-      throw ExpressionMistake(
-          at_ + found->length,
-          "an exponent behind a unit is a number; for a power of the quantity write (" +
-              std::string(text_.substr(number_begin, at_ + found->length - number_begin)) + ")^...");
+      throw ExpressionMistake(at_ + found->length,
+                              "an exponent behind a unit is a number; for a power of the quantity write (" +
+                                  std::string(text_.substr(number_begin, at_ + found->length - number_begin)) +
+                                  ")^...");
     at_ += found->length;
     return found->unit;
   }
@@ -109,17 +107,19 @@ class Lexer {
   /// What stands here up to a blank, bracket or comma: the way a unit is spelt.
   std::string_view word_here() const {
     if (!(starts_name(here()) || here() == '%' || static_cast<unsigned char>(here()) >= 0x80)) return {};
-    const auto ends = [](char c) { return is_blank(c) || std::string_view("(){},<>=!&|+").find(c) != std::string_view::npos; };
-    return rest().substr(0, static_cast<std::size_t>(std::find_if(rest().begin(), rest().end(), ends) - rest().begin()));
+    const auto ends = [](char c) {
+      return is_blank(c) || std::string_view("(){},<>=!&|+").find(c) != std::string_view::npos;
+    };
+    return rest().substr(0,
+                         static_cast<std::size_t>(std::find_if(rest().begin(), rest().end(), ends) - rest().begin()));
   }
 
-  [[noreturn]] void refuse_unit(std::size_t number_begin, std::size_t number_end,
-                                std::string_view word) const {
+  [[noreturn]] void refuse_unit(std::size_t number_begin, std::size_t number_end, std::string_view word) const {
     const std::string name(longest_known(leading_run()));
     if (!name.empty())
       throw ExpressionMistake(at_, "an operator is missing between " +
-                                       quoted(text_.substr(number_begin, number_end - number_begin)) +
-                                       " and " + quoted(name));
+                                       quoted(text_.substr(number_begin, number_end - number_begin)) + " and " +
+                                       quoted(name));
     throw ExpressionMistake(at_, why_no_unit(word));
   }
 
@@ -168,8 +168,7 @@ class Lexer {
       if (scope_.has(name))
         throw ExpressionMistake(
             begin,
-            quoted(name) +
-                " is a parameter of the deck, but a name with its own meaning here: rename the parameter");
+            quoted(name) + " is a parameter of the deck, but a name with its own meaning here: rename the parameter");
       return push({Token::Kind::variable,
                    std::string(name),
                    begin,
@@ -189,8 +188,7 @@ class Lexer {
 
   [[noreturn]] void refuse_name(std::string_view run, std::string_view function) const {
     if (!function.empty())
-      throw ExpressionMistake(at_,
-                              quoted(function) + " is a function: write " + std::string(function) + "(...)");
+      throw ExpressionMistake(at_, quoted(function) + " is a function: write " + std::string(function) + "(...)");
     const std::string_view first = run.substr(0, run.find('-'));
     if (followed_by_bracket(first.size())) throw ExpressionMistake(at_, "no function " + quoted(first));
     std::vector<std::string> names = scope_.names();
@@ -198,8 +196,8 @@ class Lexer {
     const bool whole_is_near = !closest(run, names).empty(), first_is_near = !closest(first, names).empty();
     const std::string_view meant = whole_is_near ? run : first;
     if (!whole_is_near && !first_is_near && find_unit(first))
-      throw ExpressionMistake(at_, "no parameter " + quoted(first) + "; a unit needs a number before it: 1 " +
-                                       std::string(first));
+      throw ExpressionMistake(
+          at_, "no parameter " + quoted(first) + "; a unit needs a number before it: 1 " + std::string(first));
     throw ExpressionMistake(at_, "no parameter " + quoted(meant) + did_you_mean(meant, names));
   }
 
@@ -229,8 +227,7 @@ class Lexer {
 
   [[noreturn]] void refuse_sign(char c) const {
     if (c == '=') throw ExpressionMistake(at_, "'=' means nothing here; for 'is equal' write ==");
-    if (c == '?')
-      throw ExpressionMistake(at_, "'?' means nothing here; write if(condition, then, otherwise)");
+    if (c == '?') throw ExpressionMistake(at_, "'?' means nothing here; write if(condition, then, otherwise)");
     if (c == '!') throw ExpressionMistake(at_, "'!' means nothing here; write not");
     throw ExpressionMistake(at_, named_character(rest()) + " means nothing in an expression");
   }
@@ -253,10 +250,8 @@ std::string why_no_name(std::string_view name) {
   if (name.empty()) return "is empty";
   if (!starts_name(name.front())) return "must begin with a letter";
   if (!std::all_of(name.begin(), name.end(), inside_name)) return "may hold letters, digits and . - _ only";
-  if (name.back() == '-' || name.back() == '.')
-    return "must not end with " + quoted(name.substr(name.size() - 1));
-  if (name == "pi" || name == "if" || !sign_of_word(name).empty())
-    return "has a meaning of its own in expressions";
+  if (name.back() == '-' || name.back() == '.') return "must not end with " + quoted(name.substr(name.size() - 1));
+  if (name == "pi" || name == "if" || !sign_of_word(name).empty()) return "has a meaning of its own in expressions";
   return {};
 }
 

@@ -24,8 +24,7 @@ std::string why_no_deck(const std::string& path) {
   const auto size = std::filesystem::file_size(path, error);
   if (error) return error.message();
   if (size > largest_file)
-    return "it has " + std::to_string(size >> 20) + " MiB, more than the " +
-           std::to_string(largest_file >> 20) +
+    return "it has " + std::to_string(size >> 20) + " MiB, more than the " + std::to_string(largest_file >> 20) +
            " MiB of any deck; data belong into a packing file (<read-packing>)";
   return {};
 }
@@ -51,8 +50,7 @@ Location place_of_byte(const std::shared_ptr<const Source>& source, std::size_t 
 
 }  // namespace
 
-std::shared_ptr<const Source> read_source(const std::string& path, const Location& asked_at,
-                                          Complaints& complaints) {
+std::shared_ptr<const Source> read_source(const std::string& path, const Location& asked_at, Complaints& complaints) {
   std::string why = why_no_deck(path), text;
   if (why.empty()) {
     std::ifstream file(path, std::ios::binary);
@@ -98,8 +96,7 @@ class TreeBuilder {
     }
     in_step_ = in_step_ && count == place.attributes.size() &&
                source_->text.compare(place.name.offset, node->tag.size(), node->tag) == 0;
-    for (const auto* child = element.FirstChildElement(); child && in_step_;
-         child = child->NextSiblingElement())
+    for (const auto* child = element.FirstChildElement(); child && in_step_; child = child->NextSiblingElement())
       node->children.push_back(build(*child));
     return node;
   }
@@ -110,7 +107,8 @@ class TreeBuilder {
  private:
   void add(Attribute attribute, Node& node) {
     if (const auto invisible = first_invisible(attribute.value))
-      complaints_.error(attribute.place(invisible->at), invisible->words + ", stands here in '" + attribute.name + "': delete it");
+      complaints_.error(attribute.place(invisible->at),
+                        invisible->words + ", stands here in '" + attribute.name + "': delete it");
     node.attributes.push_back(std::move(attribute));
   }
 
@@ -128,8 +126,7 @@ std::unique_ptr<Node> parse_xml(const std::shared_ptr<const Source>& source, Com
   const Markup markup = markup_of(source, complaints);
   tinyxml2::XMLDocument document;
   if (complaints.errors() > errors_before) return nullptr;
-  if (document.Parse(markup.text.data(), markup.text.size()) != tinyxml2::XML_SUCCESS ||
-      !document.RootElement()) {
+  if (document.Parse(markup.text.data(), markup.text.size()) != tinyxml2::XML_SUCCESS || !document.RootElement()) {
     complaints.error({source, document.ErrorLineNum(), 1},
                      std::string("this is not well-formed XML (") + document.ErrorName() + ")");
     return nullptr;

@@ -9,8 +9,7 @@
 namespace beadwork {
 
 /// The text of a file. Null, with an error at `asked_at`, if it cannot be read, is too large or is no text.
-std::shared_ptr<const Source> read_source(const std::string& path, const Location& asked_at,
-                                          Complaints& complaints);
+std::shared_ptr<const Source> read_source(const std::string& path, const Location& asked_at, Complaints& complaints);
 
 /// The tree as it stands in the file, <include> and <parameter> too. Null, with an error, if it is not
 /// well-formed.

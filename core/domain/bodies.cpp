@@ -18,7 +18,8 @@ std::unordered_set<Index> broken_by(const Domain& domain, const BondTable& table
 }  // namespace
 
 std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const> tables, std::int64_t when) {
-  std::vector<Index> lower(static_cast<std::size_t>(domain.size()));  // an element of the same body with a lower row, or itself
+  std::vector<Index> lower(
+      static_cast<std::size_t>(domain.size()));  // an element of the same body with a lower row, or itself
   std::iota(lower.begin(), lower.end(), 0);
   const auto lowest = [&](Index row) {
     while (lower[static_cast<std::size_t>(row)] != row) {
@@ -47,7 +48,8 @@ Set without_debris(const Set& set, const std::vector<Index>& body) {
   for (const Index row : set) largest = std::max(largest, size(row));
   if (largest == 1) return set;
   Set kept;
-  std::copy_if(set.begin(), set.end(), std::back_inserter(kept), [&](Index row) { return size(row) > 1 && size(row) >= largest / 100; });
+  std::copy_if(set.begin(), set.end(), std::back_inserter(kept),
+               [&](Index row) { return size(row) > 1 && size(row) >= largest / 100; });
   return kept;
 }
 

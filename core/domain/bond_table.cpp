@@ -67,7 +67,8 @@ Index BondTable::cut(Index elements, Index halo_begin) {
     chunk.end = row;
     // Broken rows that are not swept yet may stand among the live ones, when a checkpoint was written between the two.
     chunk.live_end = chunk.end;
-    while (!broken_act_ && chunk.live_end > chunk.begin && state_[chunk.live_end - 1] >= State::broken) --chunk.live_end;
+    while (!broken_act_ && chunk.live_end > chunk.begin && state_[chunk.live_end - 1] >= State::broken)
+      --chunk.live_end;
     chunk.halo_begin = halo;
     std::map<Index, Index> outside;  // element -> its halo row, in the order of elements
     for (Index b = chunk.begin; b < chunk.end; ++b)
@@ -89,7 +90,8 @@ void BondTable::sweep() {
   for (Chunk& chunk : chunks_) {
     order.resize(static_cast<std::size_t>(chunk.live_end - chunk.begin));
     std::iota(order.begin(), order.end(), chunk.begin);
-    const auto middle = std::stable_partition(order.begin(), order.end(), [&](Index b) { return state_[b] < State::broken; });
+    const auto middle =
+        std::stable_partition(order.begin(), order.end(), [&](Index b) { return state_[b] < State::broken; });
     if (middle == order.end()) continue;
     rows_.permute_range(chunk.begin, order);
     chunk.live_end = chunk.begin + static_cast<Index>(middle - order.begin());

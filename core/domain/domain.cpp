@@ -36,7 +36,8 @@ Index Domain::add_elements(Index count) {
 void Domain::reorder(const std::vector<Index>& order) {
   elements_.permute(order);
   std::vector<Index> row_of(order.size());
-  for (std::size_t row = 0; row < order.size(); ++row) row_of[static_cast<std::size_t>(order[row])] = static_cast<Index>(row);
+  for (std::size_t row = 0; row < order.size(); ++row)
+    row_of[static_cast<std::size_t>(order[row])] = static_cast<Index>(row);
   for (auto& [name, set] : sets_) {
     for (Index& row : set) row = row_of[static_cast<std::size_t>(row)];
     std::sort(set.begin(), set.end());
@@ -91,18 +92,22 @@ void Domain::gather() {
   const Column* torques = elements_.find("torque");
   const auto torque = torques ? torques->view<Vec3>() : View<Vec3>{};
   const auto count = static_cast<Index>(shares_.size());
-  each_shared(count, [&](Index s) {
-    const Share& share = shares_[static_cast<std::size_t>(s)];
-    const auto later = static_cast<std::size_t>(share.begin) + 32;  // halo rows come from all chunks around: fetched in time
-    if (later < share_rows_.size()) __builtin_prefetch(&force.at(share_rows_[later], 0));
-    Vec3 sum = force[share.element];
-    for (Index k = share.begin; k < share.end; ++k) sum += force[share_rows_[static_cast<std::size_t>(k)]];
-    force.set(share.element, sum);
-    if (!torque) return;
-    sum = torque[share.element];
-    for (Index k = share.begin; k < share.end; ++k) sum += torque[share_rows_[static_cast<std::size_t>(k)]];
-    torque.set(share.element, sum);
-  }, 256);
+  each_shared(
+      count,
+      [&](Index s) {
+        const Share& share = shares_[static_cast<std::size_t>(s)];
+        const auto later =
+            static_cast<std::size_t>(share.begin) + 32;  // halo rows come from all chunks around: fetched in time
+        if (later < share_rows_.size()) __builtin_prefetch(&force.at(share_rows_[later], 0));
+        Vec3 sum = force[share.element];
+        for (Index k = share.begin; k < share.end; ++k) sum += force[share_rows_[static_cast<std::size_t>(k)]];
+        force.set(share.element, sum);
+        if (!torque) return;
+        sum = torque[share.element];
+        for (Index k = share.begin; k < share.end; ++k) sum += torque[share_rows_[static_cast<std::size_t>(k)]];
+        torque.set(share.element, sum);
+      },
+      256);
 }
 
 void Domain::clear_loads() {

@@ -1,5 +1,6 @@
 #pragma once
-// Numbers that a run remembers: each stands in a row of a column of the scene, so that a checkpoint has it and a resume finds it again.
+// Numbers that a run remembers: each stands in a row of a column of the scene, so that a checkpoint has it and a resume
+// finds it again.
 
 #include <string>
 
@@ -11,8 +12,11 @@ namespace beadwork {
 class Kept {
  public:
   Kept() = default;
-  /// Takes its place in the column of this name, which is made if need be. Throws std::logic_error if there is another of that name.
-  Kept(Table& table, std::string name, std::string unit, std::string doc, Index row = 0) { stand_in(table, std::move(name), std::move(unit), std::move(doc), row); }
+  /// Takes its place in the column of this name, which is made if need be. Throws std::logic_error if there is another
+  /// of that name.
+  Kept(Table& table, std::string name, std::string unit, std::string doc, Index row = 0) {
+    stand_in(table, std::move(name), std::move(unit), std::move(doc), row);
+  }
   Kept(const Kept&) = default;
   Kept& operator=(const Kept&) = delete;  // the place, or the number?
   Kept& operator=(Real value) {

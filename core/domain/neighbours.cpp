@@ -58,9 +58,12 @@ class Level {
 
   Real largest() const { return largest_; }
   std::size_t cells() const { return key_.size(); }
-  std::span<const Member> cell(std::size_t c) const { return std::span(member_).subspan(start_[c], start_[c + 1] - start_[c]); }
+  std::span<const Member> cell(std::size_t c) const {
+    return std::span(member_).subspan(start_[c], start_[c + 1] - start_[c]);
+  }
 
-  /// Calls visit(members) for each occupied cell beside a cell of this level, on one side of it: so two cells meet once.
+  /// Calls visit(members) for each occupied cell beside a cell of this level, on one side of it: so two cells meet
+  /// once.
   template <class Visit>
   void visit_cells_after(std::size_t c, const Visit& visit) const {
     const auto axis = [&](int a) { return std::int64_t(key_[c] >> a * bits_per_axis) & axis_mask; };
@@ -109,9 +112,8 @@ class Level {
       const auto c = cell_of(cloud_.position[members[k]]);
       entries[k] = {key_of(c[0], c[1], c[2]), members[k]};
     }
-    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-      return a.key != b.key ? a.key < b.key : a.element < b.element;
-    });
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.element < b.element; });
     for (std::size_t k = 0; k < entries.size(); ++k) {
       if (k == 0 || entries[k].key != entries[k - 1].key) {
         key_.push_back(entries[k].key);
@@ -187,8 +189,7 @@ std::vector<Level> levels_of(const Cloud& cloud, std::size_t begin, std::size_t 
   std::vector<std::vector<Index>> members(max_levels);
   for (std::size_t i = begin; i < end; ++i) {
     const Real ratio = cloud.radius[i] > 0 ? largest / cloud.radius[i] : Real(1 << max_levels);
-    const int level =
-        std::min(ratio < Real(1 << max_levels) ? std::ilogb(ratio) : max_levels, max_levels - 1);
+    const int level = std::min(ratio < Real(1 << max_levels) ? std::ilogb(ratio) : max_levels, max_levels - 1);
     members[std::size_t(level)].push_back(static_cast<Index>(i));
   }
   std::vector<Level> levels;
@@ -213,10 +214,13 @@ struct Search {
     for (std::size_t from = 0; from < blocks; from += stretch) {
       pause();
       const std::size_t to = std::min(blocks, from + stretch);
-      each_shared(to - from, [&](std::size_t k) {
-        const std::size_t b = from + k, end = std::min(level.cells(), (b + 1) * block);
-        for (std::size_t cell = b * block; cell < end; ++cell) look(cell, found[base + b]);
-      }, 20);
+      each_shared(
+          to - from,
+          [&](std::size_t k) {
+            const std::size_t b = from + k, end = std::min(level.cells(), (b + 1) * block);
+            for (std::size_t cell = b * block; cell < end; ++cell) look(cell, found[base + b]);
+          },
+          20);
     }
   }
 };
@@ -225,7 +229,8 @@ void add_if_near(const Rule& rule, const Member& a, const Member& b, std::vector
   if (near(rule, a, b)) pairs.push_back({std::min(a.element, b.element), std::max(a.element, b.element)});
 }
 
-/// Whatever shares a cell is near, but for its corners: where that alone makes too many pairs, nobody should begin to look.
+/// Whatever shares a cell is near, but for its corners: where that alone makes too many pairs, nobody should begin to
+/// look.
 void refuse_crowds(const std::vector<Level>& levels) {
   Real pairs = 0;
   for (const Level& level : levels)
@@ -234,8 +239,9 @@ void refuse_crowds(const std::vector<Level>& levels) {
       pairs += members * (members - 1) / 2;
     }
   if (pairs > most_pairs)
-    throw std::invalid_argument("the elements lie so close together, or the gap between those that are looked for is so large, that about " +
-                                std::to_string(static_cast<std::int64_t>(std::min(pairs, 1e18))) + " pairs are near: more than can be held");
+    throw std::invalid_argument(
+        "the elements lie so close together, or the gap between those that are looked for is so large, that about " +
+        std::to_string(static_cast<std::int64_t>(std::min(pairs, 1e18))) + " pairs are near: more than can be held");
 }
 
 /// Pairs of the members of a level with each other.
@@ -282,13 +288,13 @@ std::vector<Pair> sorted(const std::vector<std::vector<Pair>>& found, std::size_
 
 }  // namespace
 
-std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance,
-                             Real gap, const Pause& pause) {
+std::vector<Pair> find_pairs(std::span<const Vec3> position, std::span<const Real> radius, Real tolerance, Real gap,
+                             const Pause& pause) {
   return find_pairs_around(position, radius, position.size(), tolerance, gap, pause);
 }
 
-std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius,
-                                    std::size_t moving, Real tolerance, Real gap, const Pause& pause) {
+std::vector<Pair> find_pairs_around(std::span<const Vec3> position, std::span<const Real> radius, std::size_t moving,
+                                    Real tolerance, Real gap, const Pause& pause) {
   const Rule rule{tolerance, gap};
   check(position, radius, rule);
   const Cloud cloud = cloud_of(position, radius, rule);

@@ -71,8 +71,7 @@ std::vector<Index> hilbert_order(std::span<const Vec3> position) {
       cell[a] = static_cast<std::uint32_t>(std::clamp((position[i][a] - low[a]) * scale, Real(0), top));
     key[i] = hilbert_index(cell);
   });
-  std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
   return order;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Loops over elements that do each row by itself, as many rows at once as a pack has lanes. What is done with a row does
-// not depend on which rows it shares a pack with, so neither do the bits.
+// Loops over elements that do each row by itself, as many rows at once as a pack has lanes. What is done with a row
+// does not depend on which rows it shares a pack with, so neither do the bits.
 
 #include <algorithm>
 #include <cstring>
@@ -14,8 +14,8 @@
 
 namespace beadwork {
 
-/// The rows of elements at hand: row, row + 1, ... row + W - 1. at(column) loads their values, at.set(column, value) stores
-/// them.
+/// The rows of elements at hand: row, row + 1, ... row + W - 1. at(column) loads their values, at.set(column, value)
+/// stores them.
 template <int W>
 struct Rows {
   using Number = Pack<W>;
@@ -25,7 +25,8 @@ struct Rows {
   [[gnu::always_inline]] Pack<W> operator()(const View<const Real>& column) const {
     return [&]<std::size_t... k>(std::index_sequence<k...>) __attribute__((always_inline)) {
       return Pack<W>(typename Pack<W>::Native{column[row + static_cast<Index>(k)]...});
-    }(std::make_index_sequence<W>());
+    }
+    (std::make_index_sequence<W>());
   }
   // Four numbers are read where three are wanted: a line of elements is long enough (Table::Layout::rows).
   [[gnu::always_inline]] Vec<Pack<W>> operator()(const View<const Vec3>& column) const {

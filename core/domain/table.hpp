@@ -12,8 +12,9 @@
 
 namespace beadwork {
 
-/// Memory of zeros that starts on a cache line; blocks start staggered modulo 4096, since arrays that all start alike evict
-/// one another from the cache (measured: a step 2.6 times slower). Pages that nobody has written to take no memory.
+/// Memory of zeros that starts on a cache line; blocks start staggered modulo 4096, since arrays that all start alike
+/// evict one another from the cache (measured: a step 2.6 times slower). Pages that nobody has written to take no
+/// memory.
 class Block {
  public:
   explicit Block(std::size_t bytes);

@@ -20,10 +20,7 @@ class View {
  public:
   View() = default;
   View(Byte* base, std::size_t stride, std::size_t plane) : base_(base), stride_(stride), plane_(plane) {}
-  operator View<const Value>() const
-      requires(!std::is_const_v<T>) {
-    return {base_, stride_, plane_};
-  }
+  operator View<const Value>() const requires(!std::is_const_v<T>) { return {base_, stride_, plane_}; }
 
   explicit operator bool() const { return base_ != nullptr; }
 
@@ -33,8 +30,8 @@ class View {
                                          static_cast<std::size_t>(c) * plane_);
   }
 
-  /// The row's value; of a scalar column the number itself, to read or to set. Vectors and quaternions are told, not lent: they are const, so
-  /// that `force[row] += f` does not compile, where `force.add(row, f)` is meant.
+  /// The row's value; of a scalar column the number itself, to read or to set. Vectors and quaternions are told, not
+  /// lent: they are const, so that `force[row] += f` does not compile, where `force.add(row, f)` is meant.
   [[gnu::always_inline]] std::conditional_t<scalar, Component&, const Value> operator[](Index row) const {
     if constexpr (scalar)
       return at(row, 0);

@@ -67,18 +67,22 @@ class Mapping {
 
 }  // namespace
 
-std::string check_sum_trailer(std::span<const std::byte> bytes) { return fmt::format("{}{:016x}\n", mark, check_sum(bytes)); }
+std::string check_sum_trailer(std::span<const std::byte> bytes) {
+  return fmt::format("{}{:016x}\n", mark, check_sum(bytes));
+}
 
 void verify_check_sum(const std::filesystem::path& file) {
   const Mapping mapping(file);
   const auto bytes = mapping.bytes();
   const auto damaged = [&](const char* how) {
-    return MachineFailure(fmt::format("'{}' {}: it is damaged, or was not written by this program", file.string(), how));
+    return MachineFailure(
+        fmt::format("'{}' {}: it is damaged, or was not written by this program", file.string(), how));
   };
   if (bytes.size() < trailer_size) throw damaged("is too short");
   const auto content = bytes.first(bytes.size() - trailer_size);
   const std::string trailer = check_sum_trailer(content);
-  if (std::memcmp(trailer.data(), bytes.data() + content.size(), mark.size()) != 0) throw damaged("has no check sum at its end");
+  if (std::memcmp(trailer.data(), bytes.data() + content.size(), mark.size()) != 0)
+    throw damaged("has no check sum at its end");
   if (std::memcmp(trailer.data(), bytes.data() + content.size(), trailer_size) != 0)
     throw damaged("does not fit its check sum");
 }

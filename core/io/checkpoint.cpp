@@ -92,7 +92,8 @@ void save_meta(hid_t place, const CheckpointMeta& meta) {
 
 Moment load_moment(hid_t group) {
   const std::int64_t stage = h5::integer_attribute(group, "stage");
-  Moment m{h5::real_attribute(group, "time"),        h5::integer_attribute(group, "step"),     h5::real_attribute(group, "time-step"), static_cast<int>(stage),
+  Moment m{h5::real_attribute(group, "time"),        h5::integer_attribute(group, "step"),
+           h5::real_attribute(group, "time-step"),   static_cast<int>(stage),
            h5::real_attribute(group, "stage-start"), h5::integer_attribute(group, "stage-step")};
   const auto refuse_if = [](bool wrong, const std::string& what) {
     if (wrong) throw MachineFailure(what + ", which no run can have");
@@ -100,7 +101,8 @@ Moment load_moment(hid_t group) {
   refuse_if(stage < 0 || stage > std::numeric_limits<int>::max(), fmt::format("its stage is {}", stage));
   refuse_if(m.step < 0 || !std::isfinite(m.time), fmt::format("it is of step {} at {} s", m.step, m.time));
   refuse_if(!(std::isfinite(m.time_step) && m.time_step >= 0), fmt::format("its time step is {} s", m.time_step));
-  refuse_if(!std::isfinite(m.stage_start) || m.stage_step < 0 || m.stage_step > m.step, fmt::format("its stage began at step {} of {}, at {} s", m.stage_step, m.step, m.stage_start));
+  refuse_if(!std::isfinite(m.stage_start) || m.stage_step < 0 || m.stage_step > m.step,
+            fmt::format("its stage began at step {} of {}, at {} s", m.stage_step, m.step, m.stage_start));
   return m;
 }
 
@@ -116,7 +118,8 @@ CheckpointMeta load_meta(hid_t place) {
   meta.seed = static_cast<std::uint64_t>(h5::integer_attribute(group.id(), "seed"));
   meta.resolved = h5::read_text(group.id(), "resolved");
   const auto keys = h5::read_texts(group.id(), "keys");
-  for (std::size_t i = 0; i < keys.size(); ++i) meta.texts[keys[i]] = h5::read_text(group.id(), fmt::format("value-{}", i));
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    meta.texts[keys[i]] = h5::read_text(group.id(), fmt::format("value-{}", i));
   return meta;
 }
 
@@ -126,9 +129,9 @@ std::string described(const Field& field) { return fmt::format("{} [{}]", type_n
 Column& column_for(Table& table, const Field& saved, const std::string& of) {
   if (const Column* there = table.find(saved.name))
     if (there->field().type != saved.type || there->field().unit != saved.unit)
-      throw DeckFailure(fmt::format("the checkpoint has column '{}' of {} as {}, this deck wants {}; resume with the deck "
-                                    "that wrote it",
-                                    saved.name, of, described(saved), described(there->field())));
+      throw DeckFailure(fmt::format(
+          "the checkpoint has column '{}' of {} as {}, this deck wants {}; resume with the deck that wrote it",
+          saved.name, of, described(saved), described(there->field())));
   Column& column = table.add(saved);
   column.keep();
   return column;
@@ -138,9 +141,9 @@ void load_columns(hid_t place, const std::string& name, Table& table, On on, con
   const h5::Handle group = h5::open_group(place, name);
   for (const Column* column : table.columns())
     if (column->kept() && !h5::has(group.id(), column->field().name))
-      throw DeckFailure(fmt::format("the checkpoint has no column '{}' of {}, which this deck keeps; resume with the deck "
-                                    "that wrote it",
-                                    column->field().name, of));
+      throw DeckFailure(fmt::format(
+          "the checkpoint has no column '{}' of {}, which this deck keeps; resume with the deck that wrote it",
+          column->field().name, of));
   for (const std::string& column : h5::names_in(group.id()))
     h5::read_column(group.id(), column_for(table, h5::read_field(group.id(), column, on), of), table.size());
 }
@@ -161,14 +164,16 @@ Index saved_rows(hid_t place, const std::string& name) {
 
 void require_range(View<const Index> numbers, Index rows, Index below, const std::string& what) {
   for (Index row = 0; row < rows; ++row)
-    if (numbers[row] < 0 || numbers[row] >= below) throw MachineFailure(fmt::format("{} {} is not one of {}", what, numbers[row], below));
+    if (numbers[row] < 0 || numbers[row] >= below)
+      throw MachineFailure(fmt::format("{} {} is not one of {}", what, numbers[row], below));
 }
 
 // Ids are those of 0 to below - 1, each at most once.
 void require_ids(View<const Index> ids, Index rows, std::vector<bool>& taken, const std::string& of) {
   require_range(ids, rows, static_cast<Index>(taken.size()), "id of " + of);
   for (Index row = 0; row < rows; ++row) {
-    if (taken[static_cast<std::size_t>(ids[row])]) throw MachineFailure(fmt::format("two of the {} have id {}", of, ids[row]));
+    if (taken[static_cast<std::size_t>(ids[row])])
+      throw MachineFailure(fmt::format("two of the {} have id {}", of, ids[row]));
     taken[static_cast<std::size_t>(ids[row])] = true;
   }
 }
@@ -183,11 +188,13 @@ void require_whole(const Domain& domain) {
     require_range(family->second(), family->size(), elements, "second end of a bond of '" + family->name() + "':");
     require_ids(family->id(), family->size(), bond_ids, "bonds");
     for (Index row = 0; row < family->size(); ++row)
-      if (family->state()[row] > State::broken) throw MachineFailure(fmt::format("a bond of '{}' is in no state that there is", family->name()));
+      if (family->state()[row] > State::broken)
+        throw MachineFailure(fmt::format("a bond of '{}' is in no state that there is", family->name()));
   }
   for (const auto& [name, set] : domain.sets())
     for (const Index row : set)
-      if (row < 0 || row >= elements) throw MachineFailure(fmt::format("set '{}' names element {} of {}", name, row, elements));
+      if (row < 0 || row >= elements)
+        throw MachineFailure(fmt::format("set '{}' names element {} of {}", name, row, elements));
 }
 
 // What the scene lists follows from the deck: its rows are there already.
@@ -195,7 +202,9 @@ void load_lists(hid_t place, Domain& domain) {
   const h5::Handle group = h5::open_group(place, "lists");
   for (const auto& [name, list] : domain.lists()) {
     if (!h5::has(group.id(), name) || saved_rows(group.id(), name) != list->size())
-      throw DeckFailure(fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it", list->size(), name));
+      throw DeckFailure(
+          fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it",
+                      list->size(), name));
     load_columns(group.id(), name, *list, On::scene, fmt::format("the scene's {}", name));
   }
 }
@@ -208,9 +217,8 @@ std::vector<Index> load_families(hid_t place, Domain& domain) {
     const auto& all = domain.families();
     const auto found = std::find_if(all.begin(), all.end(), [&](const auto& family) { return family->name() == name; });
     if (found == all.end())
-      throw DeckFailure(fmt::format("the checkpoint has bonds '{}', which this deck has not; resume with the deck that "
-                                    "wrote it",
-                                    name));
+      throw DeckFailure(fmt::format(
+          "the checkpoint has bonds '{}', which this deck has not; resume with the deck that wrote it", name));
     BondTable& family = **found;
     family.rows().resize(saved_rows(group.id(), name));
     load_columns(group.id(), name, family.rows(), On::bonds, fmt::format("bonds '{}'", name));
@@ -233,14 +241,19 @@ BreakLog load_breaks(hid_t place, const std::vector<Index>& families, const Doma
   const auto reals = h5::read_reals(group.id(), "reals", 5);
   const auto indices = h5::read_indices(group.id(), "indices", 3);
   const auto steps = h5::read_integers(group.id(), "steps");
-  if (reals.size() != 5 * steps.size() || indices.size() != 3 * steps.size()) throw MachineFailure("its log of breaks is not whole");
+  if (reals.size() != 5 * steps.size() || indices.size() != 3 * steps.size())
+    throw MachineFailure("its log of breaks is not whole");
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Real* r = &reals[5 * i];
     const Index* n = &indices[3 * i];
-    const auto within = [](Index number, std::size_t count) { return number >= 0 && static_cast<std::size_t>(number) < count; };
-    if (!within(n[0], families.size()) || !within(n[1], static_cast<std::size_t>(domain.bonds())) || !within(n[2], log.modes.size()))
+    const auto within = [](Index number, std::size_t count) {
+      return number >= 0 && static_cast<std::size_t>(number) < count;
+    };
+    if (!within(n[0], families.size()) || !within(n[1], static_cast<std::size_t>(domain.bonds())) ||
+        !within(n[2], log.modes.size()))
       throw MachineFailure(fmt::format("break {} is of a family, a bond or a mode that there is not", i));
-    log.breaks.push_back({r[0], steps[i], families[static_cast<std::size_t>(n[0])], n[1], n[2], Vec3(r[1], r[2], r[3]), r[4]});
+    log.breaks.push_back(
+        {r[0], steps[i], families[static_cast<std::size_t>(n[0])], n[1], n[2], Vec3(r[1], r[2], r[3]), r[4]});
   }
   return log;
 }

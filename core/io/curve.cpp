@@ -40,18 +40,22 @@ std::ifstream open_to_read(const std::filesystem::path& file) {
 
 std::string head_of(std::ifstream& in, const std::filesystem::path& file) {
   std::string head;
-  if (!std::getline(in, head) || in.eof()) throw MachineFailure(fmt::format("curve '{}' has no first line; remove it to go on without its rows", file.string()));
+  if (!std::getline(in, head) || in.eof())
+    throw MachineFailure(
+        fmt::format("curve '{}' has no first line; remove it to go on without its rows", file.string()));
   return head;
 }
 
-// What rows a resume keeps: up to the checkpoint, and whole ones only. A row that ends with the file, not with its line, is torn.
+// What rows a resume keeps: up to the checkpoint, and whole ones only. A row that ends with the file, not with its
+// line, is torn.
 std::uintmax_t kept_length(const std::filesystem::path& file, const CurveEnd& end) {
   std::ifstream in = open_to_read(file);
   const std::string head = head_of(in, file);
   if (end.length > 0 && head != end.first_line)
-    throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", the checkpoint knows it with \"{}\"; put that line back, or remove "
-                                  "the file to go on without its rows",
-                                  file.string(), head, end.first_line));
+    throw DeckFailure(
+        fmt::format("curve '{}' has the columns \"{}\", the checkpoint knows it with \"{}\"; put that line back, or "
+                    "remove the file to go on without its rows",
+                    file.string(), head, end.first_line));
   std::uintmax_t length = head.size() + 1;
   for (std::string row; length < end.length && std::getline(in, row) && !in.eof();) length += row.size() + 1;
   return length;
@@ -59,7 +63,8 @@ std::uintmax_t kept_length(const std::filesystem::path& file, const CurveEnd& en
 
 }  // namespace
 
-std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const std::vector<std::filesystem::path>& files) {
+std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends,
+                              const std::vector<std::filesystem::path>& files) {
   std::vector<CurveCut> cuts;
   for (const auto& file : files) {
     const auto known = ends.find(file.stem().string());
@@ -71,18 +76,23 @@ std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const
 std::vector<std::string> lost_rows(const std::map<std::string, CurveEnd>& ends, const std::vector<CurveCut>& cuts) {
   std::vector<std::string> lost;
   for (const auto& [name, end] : ends) {
-    const auto found = std::find_if(cuts.begin(), cuts.end(), [&, n = name](const CurveCut& cut) { return cut.file.stem().string() == n; });
+    const auto found = std::find_if(cuts.begin(), cuts.end(),
+                                    [&, n = name](const CurveCut& cut) { return cut.file.stem().string() == n; });
     if (found == cuts.end())
-      lost.push_back(fmt::format("curve '{}' is gone, and is begun anew: its rows up to the checkpoint are lost", name));
+      lost.push_back(
+          fmt::format("curve '{}' is gone, and is begun anew: its rows up to the checkpoint are lost", name));
     else if (found->length < end.length)
-      lost.push_back(fmt::format("curve '{}' has lost rows: it goes on behind the first {} of the {} bytes that it had at the checkpoint", name, found->length, end.length));
+      lost.push_back(fmt::format(
+          "curve '{}' has lost rows: it goes on behind the first {} of the {} bytes that it had at the checkpoint",
+          name, found->length, end.length));
   }
   return lost;
 }
 
 void cut(const std::vector<CurveCut>& cuts) {
   for (const CurveCut& cut : cuts)
-    if (::ftruncate(open_regular(cut.file, O_WRONLY, "cut").number(), static_cast<off_t>(cut.length)) != 0) throw file_failure("cut", cut.file, errno);
+    if (::ftruncate(open_regular(cut.file, O_WRONLY, "cut").number(), static_cast<off_t>(cut.length)) != 0)
+      throw file_failure("cut", cut.file, errno);
 }
 
 Curve::Curve(std::filesystem::path file, const std::vector<CurveColumn>& columns)
@@ -101,17 +111,15 @@ Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveCo
   std::ifstream in = open_to_read(file);
   const std::string head = head_of(in, file);
   if (head != first_line(columns))
-    throw DeckFailure(fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that "
-                                  "wrote it",
-                                  file.string(), head, first_line(columns)));
+    throw DeckFailure(
+        fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that wrote it",
+                    file.string(), head, first_line(columns)));
   Curve curve(file, columns);
   curve.open();
   return curve;
 }
 
-void Curve::open() {
-  descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "write");
-}
+void Curve::open() { descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "write"); }
 
 void Curve::add(std::int64_t step, std::span<const Real> values) {
   if (values.size() != columns_)

@@ -31,7 +31,8 @@ class Curve {
  public:
   /// Writes the first line. The step comes first by itself; `columns` follow it.
   static Curve fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
-  /// Takes up a curve that `cut` has cut. A file that is not there is begun. DeckFailure if its first line is another one.
+  /// Takes up a curve that `cut` has cut. A file that is not there is begun. DeckFailure if its first line is another
+  /// one.
   static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
 
   /// Throws MachineFailure if the row could not be written; the rows before it then still stand.
@@ -62,11 +63,12 @@ struct CurveCut {
   std::filesystem::path file;
   std::uintmax_t length = 0;
 };
-/// The cuts that take these curves back to a checkpoint, which knows how each stood, by its name: rows that came later go, be they of
-/// its very step, and a last row that a kill has torn. Of a curve that has been cut shorter whole rows stay; of one that the checkpoint does
-/// not know the first line. Changes nothing: a resume looks at everything before it cuts anything. MachineFailure if one cannot be read,
-/// DeckFailure if it has other columns than it had.
-std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends, const std::vector<std::filesystem::path>& files);
+/// The cuts that take these curves back to a checkpoint, which knows how each stood, by its name: rows that came later
+/// go, be they of its very step, and a last row that a kill has torn. Of a curve that has been cut shorter whole rows
+/// stay; of one that the checkpoint does not know the first line. Changes nothing: a resume looks at everything before
+/// it cuts anything. MachineFailure if one cannot be read, DeckFailure if it has other columns than it had.
+std::vector<CurveCut> cuts_to(const std::map<std::string, CurveEnd>& ends,
+                              const std::vector<std::filesystem::path>& files);
 void cut(const std::vector<CurveCut>& cuts);
 /// What a checkpoint knows of curves and the files no longer have, a sentence each.
 std::vector<std::string> lost_rows(const std::map<std::string, CurveEnd>& ends, const std::vector<CurveCut>& cuts);

@@ -23,7 +23,8 @@ auto read_file(const std::filesystem::path& file, const Read& read) {
 Dataset read_dataset(const std::filesystem::path& file, const std::string& name) {
   return read_file(file, [&](hid_t place) {
     Dataset out;
-    for (const hsize_t extent : h5::shape_of(place, name).extent) out.extent.push_back(static_cast<std::size_t>(extent));
+    for (const hsize_t extent : h5::shape_of(place, name).extent)
+      out.extent.push_back(static_cast<std::size_t>(extent));
     out.numbers = h5::read_all_reals(place, name);
     out.unit = h5::label_of(place, name).unit;
     out.long_name = h5::label_of(place, name).long_name;

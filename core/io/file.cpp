@@ -27,8 +27,12 @@ std::string remedy(int error) {
 
 // What stands under the name is not what a run writes.
 MachineFailure not_regular(std::string_view doing, const std::filesystem::path& file, mode_t mode) {
-  const char* what = S_ISLNK(mode) ? "a link" : S_ISDIR(mode) ? "a folder" : S_ISFIFO(mode) ? "a pipe" : "no regular file";
-  return MachineFailure(fmt::format("cannot {} '{}': it is {}, and only a file is taken here. Remove it", doing, file.string(), what));
+  const char* what = S_ISLNK(mode)    ? "a link"
+                     : S_ISDIR(mode)  ? "a folder"
+                     : S_ISFIFO(mode) ? "a pipe"
+                                      : "no regular file";
+  return MachineFailure(
+      fmt::format("cannot {} '{}': it is {}, and only a file is taken here. Remove it", doing, file.string(), what));
 }
 
 // A rename is safe from a power cut only once its folder is on the disk too. Some file systems cannot do it: then the
@@ -78,9 +82,11 @@ int write_all(int descriptor, const void* data, std::size_t size) {
 Descriptor open_regular(const std::filesystem::path& file, int flags, std::string_view doing, Links links) {
   struct stat status {};
   // Without O_NONBLOCK a pipe would be waited for; of a regular file it changes nothing.
-  Descriptor descriptor(::open(file.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (links == Links::refuse ? O_NOFOLLOW : 0), 0666));
+  Descriptor descriptor(::open(
+      file.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (links == Links::refuse ? O_NOFOLLOW : 0), 0666));
   const int error = errno;
-  if (!descriptor && ::lstat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && (links == Links::refuse || !S_ISLNK(status.st_mode)))
+  if (!descriptor && ::lstat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
+      (links == Links::refuse || !S_ISLNK(status.st_mode)))
     throw not_regular(doing, file, status.st_mode);
   if (!descriptor) throw file_failure(doing, file, error);
   if (::fstat(descriptor.number(), &status) != 0) throw file_failure(doing, file, errno);
@@ -98,7 +104,8 @@ std::string read_text(const std::filesystem::path& file, std::uintmax_t most) {
     if (taken < 0) throw file_failure("read", file, errno);
     if (taken == 0) return text;
     text.append(piece, static_cast<std::size_t>(taken));
-    if (text.size() > most) throw MachineFailure(fmt::format("cannot read '{}': it is longer than {} bytes", file.string(), most));
+    if (text.size() > most)
+      throw MachineFailure(fmt::format("cannot read '{}': it is longer than {} bytes", file.string(), most));
   }
 }
 
@@ -136,7 +143,8 @@ void write_atomically(const std::filesystem::path& file, std::initializer_list<s
 
 void reserve(const std::filesystem::path& file, std::uintmax_t size) {
   const Descriptor out = open_regular(file, O_RDWR | O_CREAT, "write");
-  if (const int error = ::posix_fallocate(out.number(), 0, static_cast<off_t>(size))) throw file_failure("write", file, error);
+  if (const int error = ::posix_fallocate(out.number(), 0, static_cast<off_t>(size)))
+    throw file_failure("write", file, error);
 }
 
 void overwrite(const std::filesystem::path& file, std::string_view text) {

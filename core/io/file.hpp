@@ -33,13 +33,14 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// Whether a link that stands in the place of a file is followed. In the folder of a run it is not: nobody but a run writes there, and
-/// what the link points to is somebody else's.
+/// Whether a link that stands in the place of a file is followed. In the folder of a run it is not: nobody but a run
+/// writes there, and what the link points to is somebody else's.
 enum class Links { refuse, follow };
 
-/// Opens a regular file that is there, with the flags of open(2). A link, a folder, a pipe or a device under that name is refused
-/// without being touched. Throws MachineFailure "cannot <doing> 'file': ...".
-Descriptor open_regular(const std::filesystem::path& file, int flags, std::string_view doing, Links links = Links::refuse);
+/// Opens a regular file that is there, with the flags of open(2). A link, a folder, a pipe or a device under that name
+/// is refused without being touched. Throws MachineFailure "cannot <doing> 'file': ...".
+Descriptor open_regular(const std::filesystem::path& file, int flags, std::string_view doing,
+                        Links links = Links::refuse);
 
 /// The text of a regular file of at most `most` bytes. Throws MachineFailure.
 std::string read_text(const std::filesystem::path& file, std::uintmax_t most);
@@ -49,8 +50,8 @@ int write_all(int descriptor, const void* data, std::size_t size);
 
 /// Where a file stands until it is whole: beside the file, so that renaming it is one act of the system.
 std::filesystem::path part_of(const std::filesystem::path& file);
-/// Makes the part of a file anew, empty. One that a kill left behind is replaced; anything but a regular file in its place is not
-/// ours, and a MachineFailure.
+/// Makes the part of a file anew, empty. One that a kill left behind is replaced; anything but a regular file in its
+/// place is not ours, and a MachineFailure.
 Descriptor make_part(const std::filesystem::path& file);
 
 /// Writes beside `file`, waits until the disk has it, then takes the old one's place: whoever looks, at whatever
@@ -62,8 +63,8 @@ void write_atomically(const std::filesystem::path& file, std::initializer_list<s
 /// Takes that much room on the disk for a file beforehand; the file is made if need be. Throws MachineFailure.
 void reserve(const std::filesystem::path& file, std::uintmax_t size);
 
-/// Writes over what the file holds, in the room that it has already: for a disk that is full, and short texts only, since a
-/// kill in between would tear it. Throws MachineFailure.
+/// Writes over what the file holds, in the room that it has already: for a disk that is full, and short texts only,
+/// since a kill in between would tear it. Throws MachineFailure.
 void overwrite(const std::filesystem::path& file, std::string_view text);
 
 /// The second half of write_atomically, for a part file that somebody else has written and closed.

@@ -22,7 +22,8 @@ void write_family(hid_t place, const FamilyRequest& request, h5::Storage storage
   h5::set_attribute(group.id(), "law", request.law);
   std::vector<Index> ends;
   ends.reserve(2 * static_cast<std::size_t>(table.size()));
-  for (Index bond = 0; bond < table.size(); ++bond) ends.insert(ends.end(), {table.first()[bond], table.second()[bond]});
+  for (Index bond = 0; bond < table.size(); ++bond)
+    ends.insert(ends.end(), {table.first()[bond], table.second()[bond]});
   h5::write_indices(group.id(), "ends", ends, 2, {"1", "Rows of the two elements in this frame"}, storage);
   write_columns(group.id(), table.rows(), {"id", "state"}, request.columns, storage);
 }

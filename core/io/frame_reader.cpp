@@ -96,9 +96,11 @@ h5::Handle FrameReader::File::frame(const std::string& name) const {
   const auto elsewhere = h5::leads_elsewhere(frames.id(), name);
   if (!elsewhere) return h5::open_group(frames.id(), name);
   const std::filesystem::path file = elsewhere->file;
-  if (file.parent_path() != "frames" || file.filename() == "..") throw MachineFailure("frame '" + name + "' leads to '" + file.string() + "', which is no frame of this run");
+  if (file.parent_path() != "frames" || file.filename() == "..")
+    throw MachineFailure("frame '" + name + "' leads to '" + file.string() + "', which is no frame of this run");
   std::error_code error;
-  if (std::filesystem::is_symlink(folder / "frames", error)) throw MachineFailure("'" + (folder / "frames").string() + "' is a link, which is not followed");
+  if (std::filesystem::is_symlink(folder / "frames", error))
+    throw MachineFailure("'" + (folder / "frames").string() + "' is a link, which is not followed");
   return h5::open_group(h5::open_file(folder / file).id(), elsewhere->group);
 }
 

@@ -27,8 +27,8 @@ struct FrameHead {
 /// A recorded column besides those that every frame has.
 struct FieldValues {
   std::string name, unit;
-  std::vector<Real> values;     ///< one a row; of a vector its length
-  bool is_length = false;       ///< of a vector
+  std::vector<Real> values;  ///< one a row; of a vector its length
+  bool is_length = false;    ///< of a vector
 };
 
 struct Bonds {
@@ -45,7 +45,7 @@ struct Frame {
   std::vector<std::int64_t> id;
   std::vector<Vec3> position;
   std::vector<Real> radius;
-  std::vector<Vec3> displacement;  ///< empty, or as long as position
+  std::vector<Vec3> displacement;   ///< empty, or as long as position
   std::vector<FieldValues> fields;  ///< of the elements, as long as position each
   std::vector<Bonds> bonds;
 };

@@ -44,8 +44,8 @@ Types types_of(Type type, Storage storage) {
   return {storage.single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
 }
 
-Handle write_numbers(hid_t place, const std::string& name, Types types, const void* numbers, std::size_t rows, int width,
-                     const Label& label, Storage storage) {
+Handle write_numbers(hid_t place, const std::string& name, Types types, const void* numbers, std::size_t rows,
+                     int width, const Label& label, Storage storage) {
   const Handle space = space_of(rows, width);
   const Handle layout = layout_of(rows, width, storage);
   Handle dataset = take(H5Dcreate2(place, name.c_str(), types.file, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
@@ -83,8 +83,9 @@ Packed pack(const std::vector<std::string>& texts) {
 void write_packed(hid_t place, const std::string& name, const std::vector<std::string>& texts, const Handle& space) {
   const Packed packed = pack(texts);
   const Handle type = text_type(packed.length);
-  const Handle dataset = take(H5Dcreate2(place, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                              H5Dclose, "make dataset '" + name + "'");
+  const Handle dataset =
+      take(H5Dcreate2(place, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
+           "make dataset '" + name + "'");
   if (!texts.empty())
     check(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, packed.bytes.data()),
           "write dataset '" + name + "'");
@@ -93,15 +94,15 @@ void write_packed(hid_t place, const std::string& name, const std::vector<std::s
 void set_packed(hid_t object, const std::string& name, const std::vector<std::string>& texts, const Handle& space) {
   const Packed packed = pack(texts);
   const Handle type = text_type(packed.length);
-  const Handle attribute = take(H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                                "make attribute '" + name + "'");
+  const Handle attribute = take(H5Acreate2(object, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                                H5Aclose, "make attribute '" + name + "'");
   check(H5Awrite(attribute.id(), type.id(), packed.bytes.data()), "write attribute '" + name + "'");
 }
 
 void set_number(hid_t object, const std::string& name, Types types, const void* value) {
   const Handle space = take(H5Screate(H5S_SCALAR), H5Sclose, "describe an attribute");
-  const Handle attribute = take(H5Acreate2(object, name.c_str(), types.file, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                                "make attribute '" + name + "'");
+  const Handle attribute = take(H5Acreate2(object, name.c_str(), types.file, space.id(), H5P_DEFAULT, H5P_DEFAULT),
+                                H5Aclose, "make attribute '" + name + "'");
   check(H5Awrite(attribute.id(), types.memory, value), "write attribute '" + name + "'");
 }
 
@@ -141,7 +142,8 @@ void check(herr_t status, const std::string& doing) {
 
 namespace {
 
-// Links and attributes stay in the header of their group, which has a check sum: the heap into which the library would put many has none.
+// Links and attributes stay in the header of their group, which has a check sum: the heap into which the library would
+// put many has none.
 void keep_in_header(hid_t creation) {
   constexpr unsigned most = 65535;
   check(H5Pset_link_phase_change(creation, most, 0), "make a group");
@@ -177,7 +179,8 @@ std::span<const std::byte> MemoryFile::image() const {
 Handle make_group(hid_t place, const std::string& name) {
   const Handle how = take(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "make a group");
   keep_in_header(how.id());
-  return take(H5Gcreate2(place, name.c_str(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Gclose, "make group '" + name + "'");
+  return take(H5Gcreate2(place, name.c_str(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Gclose,
+              "make group '" + name + "'");
 }
 
 void set_attribute(hid_t object, const std::string& name, const std::string& text) {

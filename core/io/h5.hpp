@@ -23,8 +23,8 @@ std::string reason();
 Handle take(hid_t id, Handle::Close close, const std::string& doing);
 void check(herr_t status, const std::string& doing);
 
-/// Makes a file anew, in the format since HDF5 1.8, in which every piece of structure has a check sum: what a disk has damaged is then an error. In the
-/// older one the library follows it, and may not survive that.
+/// Makes a file anew, in the format since HDF5 1.8, in which every piece of structure has a check sum: what a disk has
+/// damaged is then an error. In the older one the library follows it, and may not survive that.
 Handle make_file(const std::string& name, hid_t access);
 
 /// A file that is made in memory, so that the disk sees one plain write whose errors are the system's own. (A file
@@ -70,9 +70,10 @@ Handle write_integers(hid_t place, const std::string& name, std::span<const std:
 
 /// A column under its own name, with unit and long_name, and with what is needed to make it again.
 void write_column(hid_t place, const Column& column, Index rows, Storage storage = {});
-// ---- Reading (h5_read.cpp). A file may be damaged, or made by somebody who means harm: class, shape and size of whatever is read are
-// compared with what the reader wants and with what the file can hold before a byte is taken. What lies outside of the file (links,
-// raw data in other files, virtual datasets) is never followed. MachineFailure says what does not fit.
+// ---- Reading (h5_read.cpp). A file may be damaged, or made by somebody who means harm: class, shape and size of
+// whatever is read are compared with what the reader wants and with what the file can hold before a byte is taken. What
+// lies outside of the file (links, raw data in other files, virtual datasets) is never followed. MachineFailure says
+// what does not fit.
 
 Handle open_file(const std::filesystem::path& file, Links links = Links::refuse);
 /// A group of this file, by a path of names.

@@ -20,11 +20,14 @@ constexpr hsize_t most_inflation = 1100;  // deflate makes at most 1032 bytes of
 constexpr std::size_t longest_attribute = 65536;
 constexpr std::size_t longest_target = 4096;
 
-MachineFailure unfit(const std::string& what, const std::string& why) { return MachineFailure(fmt::format("{} {}", what, why)); }
+MachineFailure unfit(const std::string& what, const std::string& why) {
+  return MachineFailure(fmt::format("{} {}", what, why));
+}
 
 bool is_plain_integer(hid_t type) {
   const std::size_t size = H5Tget_size(type);
-  return (size == 1 || size == 2 || size == 4 || size == 8) && H5Tget_precision(type) == 8 * size && H5Tget_offset(type) == 0;
+  return (size == 1 || size == 2 || size == 4 || size == 8) && H5Tget_precision(type) == 8 * size &&
+         H5Tget_offset(type) == 0;
 }
 
 bool is_plain_real(hid_t type) {
@@ -35,8 +38,10 @@ bool is_plain_real(hid_t type) {
 void require_type(hid_t type, Kind kind, const std::string& what) {
   const H5T_class_t found = H5Tget_class(type);
   if (kind == Kind::text) {
-    if (found != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Tget_size(type) == 0) throw unfit(what, "is no text of fixed length");
-  } else if (found == H5T_INTEGER ? !is_plain_integer(type) : kind == Kind::integer || found != H5T_FLOAT || !is_plain_real(type)) {
+    if (found != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Tget_size(type) == 0)
+      throw unfit(what, "is no text of fixed length");
+  } else if (found == H5T_INTEGER ? !is_plain_integer(type)
+                                  : kind == Kind::integer || found != H5T_FLOAT || !is_plain_real(type)) {
     throw unfit(what, kind == Kind::integer ? "holds no whole numbers" : "holds no numbers");
   }
 }
@@ -78,7 +83,8 @@ T number_attribute(hid_t object, const std::string& name, Kind kind, hid_t memor
 // Texts of one length each, filled up with zeros.
 std::vector<std::string> unpacked(const std::vector<char>& bytes, std::size_t count, std::size_t length) {
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < count; ++i) texts.emplace_back(bytes.data() + i * length, strnlen(bytes.data() + i * length, length));
+  for (std::size_t i = 0; i < count; ++i)
+    texts.emplace_back(bytes.data() + i * length, strnlen(bytes.data() + i * length, length));
   return texts;
 }
 
@@ -106,7 +112,8 @@ hsize_t file_size_of(hid_t object, const std::string& what) {
 hsize_t room_of(hid_t dataset, const std::string& what) {
   const Handle made = take(H5Dget_create_plist(dataset), H5Pclose, "read " + what);
   const H5D_layout_t layout = H5Pget_layout(made.id());
-  if (layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED && layout != H5D_COMPACT) throw unfit(what, "lies in other files");
+  if (layout != H5D_CONTIGUOUS && layout != H5D_CHUNKED && layout != H5D_COMPACT)
+    throw unfit(what, "lies in other files");
   if (H5Pget_external_count(made.id()) != 0) throw unfit(what, "lies in other files");
   const hsize_t stored = H5Dget_storage_size(dataset);
   if (stored > file_size_of(dataset, what)) throw unfit(what, "is larger than its file");
@@ -137,7 +144,8 @@ Dataset open_to_read(hid_t place, const std::string& name, Kind kind) {
   require_type(type.id(), kind, what);
   const Handle space = take(H5Dget_space(handle.id()), H5Sclose, "read " + what);
   const std::size_t points = points_of(space, what);
-  if (points > 0 && points > room_of(handle.id(), what) / H5Tget_size(type.id())) throw unfit(what, "says that it holds more than is there");
+  if (points > 0 && points > room_of(handle.id(), what) / H5Tget_size(type.id()))
+    throw unfit(what, "says that it holds more than is there");
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
   if (!extent.empty()) check(H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr), "read " + what);
   return {std::move(handle), std::move(type), std::move(extent), points, what};
@@ -146,12 +154,14 @@ Dataset open_to_read(hid_t place, const std::string& name, Kind kind) {
 template <class T>
 std::vector<T> numbers_of(const Dataset& dataset, hid_t memory) {
   std::vector<T> out(dataset.points);
-  if (!out.empty()) check(H5Dread(dataset.handle.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), "read " + dataset.what);
+  if (!out.empty())
+    check(H5Dread(dataset.handle.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), "read " + dataset.what);
   return out;
 }
 
 void require_width(const Dataset& dataset, int width) {
-  const bool fits = width == 1 ? dataset.extent.size() == 1 : dataset.extent.size() == 2 && dataset.extent[1] == static_cast<hsize_t>(width);
+  const bool fits = width == 1 ? dataset.extent.size() == 1
+                               : dataset.extent.size() == 2 && dataset.extent[1] == static_cast<hsize_t>(width);
   if (!fits) throw unfit(dataset.what, fmt::format("does not have {} number{} a row", width, width == 1 ? "" : "s"));
 }
 
@@ -176,7 +186,8 @@ template <class T>
 void fill_column(hid_t place, Column& column, Index rows, Kind kind, hid_t memory) {
   const Dataset dataset = open_to_read(place, column.field().name, kind);
   require_width(dataset, components(column.field().type));
-  if (dataset.extent[0] != static_cast<hsize_t>(rows)) throw unfit(dataset.what, fmt::format("has {} rows, not {}", dataset.extent[0], rows));
+  if (dataset.extent[0] != static_cast<hsize_t>(rows))
+    throw unfit(dataset.what, fmt::format("has {} rows, not {}", dataset.extent[0], rows));
   scatter(numbers_of<T>(dataset, memory), column, rows);
 }
 
@@ -188,7 +199,8 @@ Handle open_file(const std::filesystem::path& file, Links links) {
   // Files are replaced, never changed: who reads one needs no lock, and some file systems have none.
   H5Pset_file_locking(access.id(), false, true);
   Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
-  if (!handle) throw MachineFailure(fmt::format("HDF5 cannot open '{}': not an HDF5 file, or not whole", file.string()));
+  if (!handle)
+    throw MachineFailure(fmt::format("HDF5 cannot open '{}': not an HDF5 file, or not whole", file.string()));
   return handle;
 }
 
@@ -244,7 +256,9 @@ Shape shape_of(hid_t place, const std::string& name) {
 
 Label label_of(hid_t place, const std::string& name) {
   const Handle dataset = open_dataset(place, name);
-  const auto text = [&](const char* attribute) { return has_attribute(dataset.id(), attribute) ? text_attribute(dataset.id(), attribute) : std::string(); };
+  const auto text = [&](const char* attribute) {
+    return has_attribute(dataset.id(), attribute) ? text_attribute(dataset.id(), attribute) : std::string();
+  };
   return {text("unit"), text("long_name")};
 }
 
@@ -254,7 +268,8 @@ std::vector<std::string> texts_attribute(hid_t object, const std::string& name) 
   const Attribute attribute = open_attribute(object, name, Kind::text);
   const std::size_t length = H5Tget_size(attribute.type.id());
   std::vector<char> bytes(std::max<std::size_t>(1, attribute.points * length));
-  if (attribute.points > 0) check(H5Aread(attribute.handle.id(), attribute.type.id(), bytes.data()), "read " + attribute.what);
+  if (attribute.points > 0)
+    check(H5Aread(attribute.handle.id(), attribute.type.id(), bytes.data()), "read " + attribute.what);
   return unpacked(bytes, attribute.points, length);
 }
 
@@ -264,7 +279,9 @@ std::string text_attribute(hid_t object, const std::string& name) {
   return texts.front();
 }
 
-Real real_attribute(hid_t object, const std::string& name) { return number_attribute<Real>(object, name, Kind::real, H5T_NATIVE_DOUBLE); }
+Real real_attribute(hid_t object, const std::string& name) {
+  return number_attribute<Real>(object, name, Kind::real, H5T_NATIVE_DOUBLE);
+}
 
 std::int64_t integer_attribute(hid_t object, const std::string& name) {
   return number_attribute<std::int64_t>(object, name, Kind::integer, H5T_NATIVE_INT64);
@@ -280,7 +297,8 @@ std::vector<std::string> read_texts(hid_t place, const std::string& name) {
   const std::size_t length = H5Tget_size(dataset.type.id());
   std::vector<char> bytes(std::max<std::size_t>(1, dataset.points * length));
   if (dataset.points > 0)
-    check(H5Dread(dataset.handle.id(), dataset.type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), "read " + dataset.what);
+    check(H5Dread(dataset.handle.id(), dataset.type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()),
+          "read " + dataset.what);
   return unpacked(bytes, dataset.points, length);
 }
 
@@ -307,7 +325,11 @@ std::vector<Real> read_all_reals(hid_t place, const std::string& name) {
 
 Field read_field(hid_t place, const std::string& name, On on) {
   const Handle dataset = open_dataset(place, name);
-  Field field{name, on, Type::real, text_attribute(dataset.id(), "unit"), text_attribute(dataset.id(), "long_name"),
+  Field field{name,
+              on,
+              Type::real,
+              text_attribute(dataset.id(), "unit"),
+              text_attribute(dataset.id(), "long_name"),
               text_attribute(dataset.id(), "line")};
   const std::string type = text_attribute(dataset.id(), "type");
   for (const Type known : {Type::real, Type::vec3, Type::quat, Type::index, Type::state})

@@ -16,9 +16,13 @@ namespace {
 
 using Path = std::filesystem::path;
 
-const char* name_of(Manifest::Of of) { return of == Manifest::Of::run ? Manifest::file_name : Manifest::file_name_of_batch; }
+const char* name_of(Manifest::Of of) {
+  return of == Manifest::Of::run ? Manifest::file_name : Manifest::file_name_of_batch;
+}
 const char* maker(Manifest::Of of) { return of == Manifest::Of::run ? "run" : "batch"; }
-std::string signature(Manifest::Of of) { return fmt::format("beadwork: the files that a {} made, format 1", maker(of)); }
+std::string signature(Manifest::Of of) {
+  return fmt::format("beadwork: the files that a {} made, format 1", maker(of));
+}
 
 constexpr std::uintmax_t longest = std::uintmax_t{1} << 30;
 
@@ -78,8 +82,9 @@ Manifest Manifest::begin(const Path& folder, const std::vector<std::string>& fil
 
 void Manifest::refuse_what_stands(const Path& file, Of of) {
   if (stands(file))
-    throw DeckFailure(fmt::format("'{}' is there already, and no {} made it: it is left alone. Rename it, or choose another {}", file.string(), maker(of),
-                                  of == Of::run ? "name" : "folder"));
+    throw DeckFailure(
+        fmt::format("'{}' is there already, and no {} made it: it is left alone. Rename it, or choose another {}",
+                    file.string(), maker(of), of == Of::run ? "name" : "folder"));
 }
 
 void Manifest::add(const std::string& file) {

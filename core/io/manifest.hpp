@@ -1,6 +1,6 @@
 #pragma once
-// The list of the files that a run made: `run.files`, a line that says so, then a path on each line. A folder is that of a run if
-// it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`.
+// The list of the files that a run made: `run.files`, a line that says so, then a path on each line. A folder is that
+// of a run if it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`.
 
 #include <filesystem>
 #include <optional>
@@ -18,7 +18,8 @@ class Manifest {
   static constexpr const char* file_name_of_batch = "batch.files";
   enum class Of { run, batch };
 
-  /// That of a folder; nothing if there is none, or a file of this name that no run wrote. MachineFailure if it cannot be read.
+  /// That of a folder; nothing if there is none, or a file of this name that no run wrote. MachineFailure if it cannot
+  /// be read.
   static std::optional<Manifest> read(const std::filesystem::path& folder, Of of = Of::run);
   /// Writes one that lists these files of the folder, in the place of a former one.
   static Manifest begin(const std::filesystem::path& folder, const std::vector<std::string>& files, Of of = Of::run);
@@ -29,9 +30,9 @@ class Manifest {
   /// In the order in which they were put on the list.
   const std::vector<std::string>& files() const { return files_; }
   bool lists(const std::string& file) const { return known_.contains(file); }
-  /// Puts a file of the folder ("curves/force.csv") on the list, and waits until the disk has it: to be called before the file is made,
-  /// so that no kill leaves one that is not listed. DeckFailure if it is there and not on the list, or if its name cannot be that
-  /// of a file of a run.
+  /// Puts a file of the folder ("curves/force.csv") on the list, and waits until the disk has it: to be called before
+  /// the file is made, so that no kill leaves one that is not listed. DeckFailure if it is there and not on the list,
+  /// or if its name cannot be that of a file of a run.
   void claim(const std::string& file);
   /// Reads what others, such as a report, have put on the list in the meantime.
   void refresh();

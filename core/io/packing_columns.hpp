@@ -14,13 +14,13 @@ enum class Holds { x, y, z, radius, diameter, set, id, other };
 
 struct Heading {
   Holds holds = Holds::other;
-  std::string name;              ///< as it was written, without the unit
-  std::string unit_name = {};    ///< as it was written; empty where none is
+  std::string name;               ///< as it was written, without the unit
+  std::string unit_name = {};     ///< as it was written; empty where none is
   std::optional<Unit> unit = {};  ///< of a length
 };
 
-/// A heading such as `x`, `Radius [mm]`, `d (um)`, `z_mm`, `y/mm` or `"r"`; a name that is not known holds something other.
-/// Throws std::invalid_argument if a place or a size has a unit that is none of length.
+/// A heading such as `x`, `Radius [mm]`, `d (um)`, `z_mm`, `y/mm` or `"r"`; a name that is not known holds something
+/// other. Throws std::invalid_argument if a place or a size has a unit that is none of length.
 Heading heading_of(std::string_view text);
 
 /// Why these columns do not tell an element: something is missing, or there twice. Empty if they do.

@@ -17,7 +17,8 @@ namespace beadwork {
 
 namespace {
 
-std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::FrameReader& reader, const record::Frame& frame) {
+std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::FrameReader& reader,
+                                                              const record::Frame& frame) {
   std::unordered_map<std::int64_t, std::size_t> place;
   for (std::size_t k = 0; k < frame.id.size(); ++k) place.emplace(frame.id[k], k);
   std::map<std::string, std::vector<std::size_t>> sets;
@@ -33,13 +34,15 @@ std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::Fram
 
 StoredPacking first_frame(const std::filesystem::path& file) {
   const record::FrameReader reader(file, Links::follow);
-  if (reader.frames().empty()) throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
+  if (reader.frames().empty())
+    throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
   record::Frame frame = reader.read(reader.frames().front());
   auto sets = recorded_sets(reader, frame);
   StoredPacking packing{std::move(frame.position), std::move(frame.radius), std::move(sets)};
   for (std::size_t k = 0; k < packing.radius.size(); ++k)
     if (!packing.position[k].allFinite() || !std::isfinite(packing.radius[k]) || packing.radius[k] <= 0)
-      throw DeckFailure(fmt::format("error: element {} of {} has a place that is not finite or a radius that is not > 0", k, file.string()));
+      throw DeckFailure(fmt::format(
+          "error: element {} of {} has a place that is not finite or a radius that is not > 0", k, file.string()));
   return packing;
 }
 
@@ -60,7 +63,8 @@ std::string why_no_columns(const std::vector<std::string>& columns) {
       return wrong.what();
     }
     if (headings.back().holds == Holds::other)
-      return "no column is called \"" + column + "\"; known: x, y, z, radius (r), diameter (d), set, id, and - for one that is passed over";
+      return "no column is called \"" + column +
+             "\"; known: x, y, z, radius (r), diameter (d), set, id, and - for one that is passed over";
   }
   return why_no_element(headings);
 }
@@ -71,12 +75,14 @@ StoredPacking read_packing(const std::filesystem::path& file, const TextForm& fo
   return packing;
 }
 
-const std::vector<std::size_t>& members_of(const StoredPacking& packing, const std::string& set, const std::filesystem::path& file) {
+const std::vector<std::size_t>& members_of(const StoredPacking& packing, const std::string& set,
+                                           const std::filesystem::path& file) {
   const auto found = packing.sets.find(set);
   if (found != packing.sets.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& each : packing.sets) known.push_back(each.first);
-  throw NoSuchSet(fmt::format("{} has no set '{}'{}", file.string(), set, known.empty() ? ", nor any other" : did_you_mean(set, known)));
+  throw NoSuchSet(fmt::format("{} has no set '{}'{}", file.string(), set,
+                              known.empty() ? ", nor any other" : did_you_mean(set, known)));
 }
 
 StoredPacking part_of(const StoredPacking& packing, const std::string& set, const std::filesystem::path& file) {

@@ -26,8 +26,9 @@ struct StoredPacking {
 
 /// What a deck says of a text.
 struct TextForm {
-  std::string unit = {};                  ///< of lengths; empty: that of the headings, m where these have none
-  std::vector<std::string> columns = {};  ///< their headings in order, "-" for one that is passed over; empty: those of the text
+  std::string unit = {};  ///< of lengths; empty: that of the headings, m where these have none
+  std::vector<std::string> columns =
+      {};  ///< their headings in order, "-" for one that is passed over; empty: those of the text
 };
 
 /// True of a run.h5, whose lengths say themselves in which unit they are.
@@ -36,12 +37,14 @@ bool states_its_unit(const std::filesystem::path& file);
 /// Why these are no columns of a packing; empty if they are.
 std::string why_no_columns(const std::vector<std::string>& columns);
 
-/// Reads the first frame of a run.h5, or a text (packing_text.hpp). MachineFailure if the file cannot be opened; DeckFailure, with
-/// line and column where there are any, if it holds something else, a number that is not finite, a radius <= 0, or no element.
+/// Reads the first frame of a run.h5, or a text (packing_text.hpp). MachineFailure if the file cannot be opened;
+/// DeckFailure, with line and column where there are any, if it holds something else, a number that is not finite, a
+/// radius <= 0, or no element.
 StoredPacking read_packing(const std::filesystem::path& file, const TextForm& form, const Pause& pause = never_paused);
 
 /// The members of a set. Throws NoSuchSet.
-const std::vector<std::size_t>& members_of(const StoredPacking& packing, const std::string& set, const std::filesystem::path& file);
+const std::vector<std::size_t>& members_of(const StoredPacking& packing, const std::string& set,
+                                           const std::filesystem::path& file);
 
 /// Those elements alone that are in a set. Throws NoSuchSet.
 StoredPacking part_of(const StoredPacking& packing, const std::string& set, const std::filesystem::path& file);

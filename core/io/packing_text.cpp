@@ -72,13 +72,17 @@ class PackingTable {
 
   Location at(std::size_t offset) const {
     const std::string_view before = std::string_view(source_->text).substr(begin_, offset - begin_);
-    const auto characters = std::count_if(before.begin(), before.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+    const auto characters = std::count_if(before.begin(), before.end(),
+                                          [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
     return {source_, line_, static_cast<int>(characters) + 1, offset};
   }
 
   // Blanks separate where nothing else does; in a line of names units in brackets belong to the name in front.
   std::vector<Cell> cells(std::string_view line, std::size_t offset, bool names) const {
-    const char separator = line.find(';') != line.npos ? ';' : line.find(',') != line.npos ? ',' : names && line.find('\t') != line.npos ? '\t' : ' ';
+    const char separator = line.find(';') != line.npos             ? ';'
+                           : line.find(',') != line.npos           ? ','
+                           : names && line.find('\t') != line.npos ? '\t'
+                                                                   : ' ';
     std::vector<Cell> found;
     const auto add = [&](std::string_view piece) {
       const std::string_view text = trim(piece);
@@ -97,7 +101,8 @@ class PackingTable {
       const std::size_t end = std::min(line.find_first_of(blanks, begin), line.size());
       const bool unit = names && !found.empty() && std::string_view("[({").find(line[begin]) != std::string_view::npos;
       if (unit)
-        found.back().text = {found.back().text.data(), static_cast<std::size_t>(line.data() + end - found.back().text.data())};
+        found.back().text = {found.back().text.data(),
+                             static_cast<std::size_t>(line.data() + end - found.back().text.data())};
       else
         add(line.substr(begin, end - begin));
       begin = line.find_first_not_of(blanks, end);
@@ -116,8 +121,10 @@ class PackingTable {
     if (!settled_) {
       settled_ = true;
       const auto words = cells(text, offset, true);
-      const bool names = std::none_of(words.begin(), words.end(), [](const Cell& cell) { return parse_number(cell.text).has_value(); });
-      const bool decimal_commas = text.find_first_of("0123456789") != text.npos && text.find_first_not_of("0123456789+-.,;eE \t") == text.npos;
+      const bool names = std::none_of(words.begin(), words.end(),
+                                      [](const Cell& cell) { return parse_number(cell.text).has_value(); });
+      const bool decimal_commas =
+          text.find_first_of("0123456789") != text.npos && text.find_first_not_of("0123456789+-.,;eE \t") == text.npos;
       if (names && !decimal_commas) return take_names(words);
       if (columns_.empty()) settle_columns(form_.columns.empty() ? usual_columns() : named_by_deck(), nullptr);
     }
@@ -162,7 +169,8 @@ class PackingTable {
 
   std::vector<Heading> named_by_deck() const {
     std::vector<Heading> headings;
-    for (const std::string& column : form_.columns) headings.push_back(column == "-" ? Heading{Holds::other, "-"} : heading_of(column));
+    for (const std::string& column : form_.columns)
+      headings.push_back(column == "-" ? Heading{Holds::other, "-"} : heading_of(column));
     return headings;
   }
 
@@ -170,17 +178,23 @@ class PackingTable {
   std::vector<Heading> agreed(const std::vector<Heading>& text, const std::vector<Cell>& words) const {
     std::vector<Heading> deck = named_by_deck();
     if (deck.size() != text.size())
-      refuse(at(words.front().offset), fmt::format("here are {} names of columns, 'columns' in the deck has {}", text.size(), deck.size()));
+      refuse(at(words.front().offset),
+             fmt::format("here are {} names of columns, 'columns' in the deck has {}", text.size(), deck.size()));
     for (std::size_t k = 0; k < deck.size(); ++k) {
       if (text[k].holds != Holds::other && deck[k].name != "-" && text[k].holds != deck[k].holds)
-        refuse(at(words[k].offset), fmt::format("this column is called \"{}\" here, and \"{}\" by 'columns' in the deck", text[k].name, deck[k].name));
-      if (!deck[k].unit && text[k].holds == deck[k].holds) std::tie(deck[k].unit, deck[k].unit_name) = std::tie(text[k].unit, text[k].unit_name);
+        refuse(at(words[k].offset),
+               fmt::format("this column is called \"{}\" here, and \"{}\" by 'columns' in the deck", text[k].name,
+                           deck[k].name));
+      if (!deck[k].unit && text[k].holds == deck[k].holds)
+        std::tie(deck[k].unit, deck[k].unit_name) = std::tie(text[k].unit, text[k].unit_name);
     }
     return deck;
   }
 
   void settle_columns(std::vector<Heading> columns, const std::vector<Cell>* words) {
-    const auto place = [&](std::size_t k) { return at(words ? (*words)[std::min(k, words->size() - 1)].offset : begin_); };
+    const auto place = [&](std::size_t k) {
+      return at(words ? (*words)[std::min(k, words->size() - 1)].offset : begin_);
+    };
     if (const std::string why = why_no_element(columns); !why.empty())
       refuse(place(0), why + ": name them here, or by columns=\"x y z radius\" in the deck, in their order");
     const bool any = std::any_of(columns.begin(), columns.end(), [](const Heading& h) { return h.unit.has_value(); });
@@ -190,15 +204,20 @@ class PackingTable {
       const Heading& heading = columns[k];
       const bool length = heading.holds < Holds::set;
       if (length && !heading.unit && any && form_.unit.empty())
-        refuse(place(k), fmt::format("column '{}' has no unit, others have one: write {} [mm], or whichever it is", heading.name, heading.name));
+        refuse(place(k), fmt::format("column '{}' has no unit, others have one: write {} [mm], or whichever it is",
+                                     heading.name, heading.name));
       if (length && heading.unit && !form_.unit.empty() && heading.unit->scale != find_unit(form_.unit)->scale)
-        refuse(place(k), fmt::format("column '{}' is in {}, but the deck says unit=\"{}\": leave out 'unit', or mend the one that is wrong", heading.name,
-                                     heading.unit_name, form_.unit));
+        refuse(
+            place(k),
+            fmt::format(
+                "column '{}' is in {}, but the deck says unit=\"{}\": leave out 'unit', or mend the one that is wrong",
+                heading.name, heading.unit_name, form_.unit));
       if (heading.holds == Holds::other && heading.name != "-") others.push_back("'" + heading.name + "'");
       const Unit unit = heading.unit ? *heading.unit : *find_unit(form_.unit.empty() ? "m" : form_.unit);
       scale_.push_back(unit.scale * (heading.holds == Holds::diameter ? 0.5 : 1));
     }
-    if (!others.empty()) packing_.warnings.push_back(fmt::format("{}: not read: column {}", place(0).where(), join(others)));
+    if (!others.empty())
+      packing_.warnings.push_back(fmt::format("{}: not read: column {}", place(0).where(), join(others)));
     columns_ = std::move(columns);
   }
 
@@ -215,7 +234,8 @@ class PackingTable {
       if (holds <= Holds::z)
         x[static_cast<int>(holds)] = value;
       else if (radius = value; !(radius > 0))
-        refuse(at(words[k].offset), fmt::format("a {} must be > 0, got \"{}\"", holds == Holds::radius ? "radius" : "diameter", words[k].text));
+        refuse(at(words[k].offset), fmt::format("a {} must be > 0, got \"{}\"",
+                                                holds == Holds::radius ? "radius" : "diameter", words[k].text));
     }
     packing_.position.push_back(x);
     packing_.radius.push_back(radius);
@@ -238,36 +258,46 @@ class PackingTable {
   }
 
   [[noreturn]] void refuse_length(std::string_view text, std::size_t offset, std::size_t found) const {
-    const bool by_blanks = text.find(',') != text.npos && text.find_first_of(" \t") != text.npos && text.find(';') == text.npos;
-    refuse(at(offset), fmt::format("a line holds {}, here are {}{}{}", wanted(), found,
-                                   by_blanks ? "; a decimal has a point, where a comma stands between numbers" : "",
-                                   named_at_ == 0 ? "; other columns are named in a first line, or by columns=\"...\" in the deck" : ""));
+    const bool by_blanks =
+        text.find(',') != text.npos && text.find_first_of(" \t") != text.npos && text.find(';') == text.npos;
+    refuse(at(offset),
+           fmt::format(
+               "a line holds {}, here are {}{}{}", wanted(), found,
+               by_blanks ? "; a decimal has a point, where a comma stands between numbers" : "",
+               named_at_ == 0 ? "; other columns are named in a first line, or by columns=\"...\" in the deck" : ""));
   }
 
   std::string wanted() const {
     std::vector<std::string> names;
     for (const Heading& heading : columns_) names.push_back(heading.name);
     const std::string where = named_at_ ? fmt::format(" (as line {} names them)", named_at_) : "";
-    return fmt::format("{} {}, {}{}", columns_.size(), columns_.size() == 4 ? "numbers" : "columns", join(names, " "), where);
+    return fmt::format("{} {}, {}{}", columns_.size(), columns_.size() == 4 ? "numbers" : "columns", join(names, " "),
+                       where);
   }
 
   // A line that was copied twice: two elements in one place, whose bond has no length.
   void warn_of_twins() {
     std::vector<std::size_t> order(packing_.position.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto key = [&](std::size_t k) { return std::tuple(packing_.position[k][0], packing_.position[k][1], packing_.position[k][2], k); };
+    const auto key = [&](std::size_t k) {
+      return std::tuple(packing_.position[k][0], packing_.position[k][1], packing_.position[k][2], k);
+    };
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
     std::size_t twins = 0, first = 0;
     for (std::size_t k = 1; k < order.size(); ++k)
       if (packing_.position[order[k]] == packing_.position[order[k - 1]] && twins++ == 0) first = k;
     if (twins == 0) return;
-    packing_.warnings.push_back(fmt::format("{}:{}: the element of line {} has the same place{}", source_->path, line_of_[order[first]],
-                                            line_of_[order[first - 1]], twins > 1 ? fmt::format("; {} elements in all stand where another does", twins) : ""));
+    packing_.warnings.push_back(
+        fmt::format("{}:{}: the element of line {} has the same place{}", source_->path, line_of_[order[first]],
+                    line_of_[order[first - 1]],
+                    twins > 1 ? fmt::format("; {} elements in all stand where another does", twins) : ""));
   }
 };
 
 }  // namespace
 
-StoredPacking read_packing_text(const std::filesystem::path& file, const TextForm& form, const Pause& pause) { return PackingTable(file, form).read(pause); }
+StoredPacking read_packing_text(const std::filesystem::path& file, const TextForm& form, const Pause& pause) {
+  return PackingTable(file, form).read(pause);
+}
 
 }  // namespace beadwork

@@ -78,8 +78,7 @@ std::uint8_t coarse(float share) {
 
 }  // namespace
 
-Canvas::Canvas(const Camera& camera, int width_in_pixels)
-    : camera_(camera), toward_(camera.right.cross(camera.up)) {
+Canvas::Canvas(const Camera& camera, int width_in_pixels) : camera_(camera), toward_(camera.right.cross(camera.up)) {
   if (!(camera.width > 0) || !(camera.height > 0) || width_in_pixels < 1)
     throw MachineFailure("a picture needs a positive size");
   const int across = std::min(width_in_pixels, 8192);
@@ -115,8 +114,7 @@ void Canvas::for_box(float x0, float x1, float y0, float y1, const Paint& paint)
   const int last_x = static_cast<int>(std::min(static_cast<float>(width_ - 1), x1));
   const int last_y = static_cast<int>(std::min(static_cast<float>(height_ - 1), y1));
   for (int y = first_y; y <= last_y; ++y)
-    for (int x = first_x; x <= last_x; ++x)
-      paint(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, x, y);
+    for (int x = first_x; x <= last_x; ++x) paint(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, x, y);
 }
 
 void Canvas::sphere(const Vec3& centre, Real radius, Color base) {
@@ -135,8 +133,7 @@ void Canvas::sphere(const Vec3& centre, Real radius, Color base) {
 void Canvas::disc(const Vec3& centre, const Vec3& normal, Real radius, Color base) {
   const Point c = project(centre);
   const float r = static_cast<float>(radius) * scale_;
-  const auto nr = static_cast<float>(normal.dot(camera_.right)),
-             nu = static_cast<float>(normal.dot(camera_.up));
+  const auto nr = static_cast<float>(normal.dot(camera_.right)), nu = static_cast<float>(normal.dot(camera_.up));
   // A disc seen from its side is given a little thickness, or it would vanish.
   const float nt = std::max(0.25F, std::abs(static_cast<float>(normal.dot(toward_))));
   const float sign = normal.dot(toward_) < 0 ? -1.0F : 1.0F;
@@ -155,16 +152,16 @@ void Canvas::segment(const Vec3& from, const Vec3& to, Real thickness, Color bas
   const float r = std::max(0.8F, 0.5F * static_cast<float>(thickness) * scale_);
   const float ux = b.x - a.x, uy = b.y - a.y;
   const float square = std::max(ux * ux + uy * uy, 1e-12F);
-  for_box(std::min(a.x, b.x) - r, std::max(a.x, b.x) + r, std::min(a.y, b.y) - r, std::max(a.y, b.y) + r,
-          [&](float px, float py, int x, int y) {
-            const float along = std::clamp(((px - a.x) * ux + (py - a.y) * uy) / square, 0.0F, 1.0F);
-            const float dx = px - a.x - along * ux, dy = py - a.y - along * uy;
-            const float off = (dx * dx + dy * dy) / (r * r);
-            if (off > 1) return;
-            const float bulge = std::sqrt(1 - off);
-            put(x, y, a.depth + along * (b.depth - a.depth) + bulge * r,
-                mix(mix(base, Color{0, 0, 0}, 0.3F), base, bulge));
-          });
+  for_box(
+      std::min(a.x, b.x) - r, std::max(a.x, b.x) + r, std::min(a.y, b.y) - r, std::max(a.y, b.y) + r,
+      [&](float px, float py, int x, int y) {
+        const float along = std::clamp(((px - a.x) * ux + (py - a.y) * uy) / square, 0.0F, 1.0F);
+        const float dx = px - a.x - along * ux, dy = py - a.y - along * uy;
+        const float off = (dx * dx + dy * dy) / (r * r);
+        if (off > 1) return;
+        const float bulge = std::sqrt(1 - off);
+        put(x, y, a.depth + along * (b.depth - a.depth) + bulge * r, mix(mix(base, Color{0, 0, 0}, 0.3F), base, bulge));
+      });
 }
 
 void Canvas::darken_hollows(Real reach, float strength) {
@@ -217,8 +214,7 @@ Image Canvas::image() const {
 
 std::vector<std::uint8_t> png(const Image& image) {
   const auto row_bytes = static_cast<std::size_t>(image.width) * 4;
-  if (image.width < 1 || image.height < 1 ||
-      image.rgba.size() != row_bytes * static_cast<std::size_t>(image.height))
+  if (image.width < 1 || image.height < 1 || image.rgba.size() != row_bytes * static_cast<std::size_t>(image.height))
     throw MachineFailure("a picture's bytes do not match its size");
   std::vector<std::uint8_t> out;
   // libpng reports errors by a function that must not return; throwing through its frames is what it allows
@@ -239,9 +235,8 @@ std::vector<std::uint8_t> png(const Image& image) {
   };
   try {
     png_set_write_fn(writer, &out, append, [](png_structp) {});
-    png_set_IHDR(writer, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
-                 8, PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(writer, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+                 PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(writer, 6);
     png_write_info(writer, info);
     for (int y = 0; y < image.height; ++y)

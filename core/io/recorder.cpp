@@ -73,9 +73,11 @@ void write_breaks_of(hid_t place, const Domain& domain) {
   }
   reals("time", [](const Break& b) { return b.time; }, {"s", "Time of the break"});
   reals("energy", [](const Break& b) { return b.energy; }, {"J", "Energy released with the break"});
-  indices("family", [](const Break& b) { return b.family; }, {"1", "Row of family_names"}, families);
+  indices(
+      "family", [](const Break& b) { return b.family; }, {"1", "Row of family_names"}, families);
   indices("bond", [](const Break& b) { return b.bond; }, {"1", "Id of the bond"}, {});
-  indices("mode", [](const Break& b) { return b.mode; }, {"1", "Row of mode_names"}, domain.breaks().modes);
+  indices(
+      "mode", [](const Break& b) { return b.mode; }, {"1", "Row of mode_names"}, domain.breaks().modes);
   h5::write_integers(group.id(), "step", steps, {"1", "Step of the break"});
   h5::write_reals(group.id(), "place", places, 3, {"m", "Middle of the bond"});
   h5::write_texts(group.id(), "family_names", families);
@@ -115,7 +117,8 @@ bool holds_frames(const path& record) {
   const h5::Handle file = h5::open_file(record);
   const h5::Handle frames = h5::open_group(file.id(), "frames");
   const auto names = h5::names_in(frames.id());
-  return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return !h5::leads_elsewhere(frames.id(), name); });
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return !h5::leads_elsewhere(frames.id(), name); });
 }
 
 bool is_one_file(const path& file) { return file.filename().string().starts_with(one_file); }
@@ -135,8 +138,13 @@ path free_name(const path& file, const std::string& ending) {
 }  // namespace
 
 Recorder::Recorder(RunFolder& folder, RunMeta meta, Options options)
-    : folder_(&folder), root_(folder.root()), record_(folder.record()), view_(folder.view()), frames_folder_(folder.frames()),
-      meta_(std::move(meta)), options_(options) {}
+    : folder_(&folder),
+      root_(folder.root()),
+      record_(folder.record()),
+      view_(folder.view()),
+      frames_folder_(folder.frames()),
+      meta_(std::move(meta)),
+      options_(options) {}
 
 Recorder Recorder::fresh(RunFolder& folder, RunMeta meta, Options options, const Domain& domain) {
   Recorder recorder(folder, std::move(meta), options);
@@ -144,8 +152,7 @@ Recorder Recorder::fresh(RunFolder& folder, RunMeta meta, Options options, const
   return recorder;
 }
 
-Recorder Recorder::resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
-                          std::int64_t step) {
+Recorder Recorder::resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain, std::int64_t step) {
   const h5::Silence silence;
   Recorder recorder(folder, std::move(meta), options);
   recorder.take_up(recorder.survey(step));
@@ -184,7 +191,10 @@ Recorder::Found Recorder::survey(std::int64_t step) {
       found.keep_record = holds_frames(record_);
     } catch (const MachineFailure& failure) {
       found.damaged.push_back(record_);
-      notes_.push_back(fmt::format("run.h5 is damaged and was kept under another name; a new one has the frames that stand in files of their own ({})", failure.what()));
+      notes_.push_back(
+          fmt::format("run.h5 is damaged and was kept under another name; a new one has the frames that stand in files "
+                      "of their own ({})",
+                      failure.what()));
     }
     const path aside = place_for_record();
     if (found.keep_record && !stands(aside)) look_into(record_, "/frames/", name(aside), step, found);
@@ -194,11 +204,13 @@ Recorder::Found Recorder::survey(std::int64_t step) {
 }
 
 // Notes the frames in a file: one, which is all of it, or those of a former run.h5.
-void Recorder::look_into(const path& file, const std::string& frames_in, const std::string& as, std::int64_t step, Found& found) {
+void Recorder::look_into(const path& file, const std::string& frames_in, const std::string& as, std::int64_t step,
+                         Found& found) {
   const bool one = frames_in == "/";
   const auto note_damage = [&](const std::string& what, const std::exception& failure) {
     if (found.damaged.empty() || found.damaged.back() != file) found.damaged.push_back(file);
-    notes_.push_back(fmt::format("{} is damaged and was left out; the file was kept under another name ({})", what, failure.what()));
+    notes_.push_back(
+        fmt::format("{} is damaged and was left out; the file was kept under another name ({})", what, failure.what()));
   };
   const auto take = [&](const h5::Handle& in, const std::string& group_name) {
     const h5::Handle group = h5::open_group(in.id(), group_name);
@@ -231,7 +243,8 @@ void Recorder::take_up(Found found) {
     if (!stands(aside)) {
       folder_->claim(aside);
       // Without a copy, and without a moment in which run.h5 is missing; not every file system can.
-      if (::link(record_.c_str(), aside.c_str()) != 0 && ::rename(record_.c_str(), aside.c_str()) != 0) throw file_failure("set aside", record_, errno);
+      if (::link(record_.c_str(), aside.c_str()) != 0 && ::rename(record_.c_str(), aside.c_str()) != 0)
+        throw file_failure("set aside", record_, errno);
     }
   }
   std::error_code error;
@@ -263,7 +276,8 @@ void Recorder::write(const FrameStamp& stamp, const FrameRequest& request, const
   const std::string name = name_of(stamp.step);
   folder_->claim(frames_folder_ / (name + ".h5"));
   write_atomically(frames_folder_ / (name + ".h5"), {out.image()});
-  frames_[stamp.step] = {"frames/" + name + ".h5", "/", xdmf_parts(describe_frame(out.id(), "/frames/" + name), "run.h5")};
+  frames_[stamp.step] = {"frames/" + name + ".h5", "/",
+                         xdmf_parts(describe_frame(out.id(), "/frames/" + name), "run.h5")};
   write_master(domain);
   write_view();
 }
@@ -283,8 +297,8 @@ void Recorder::write_master(const Domain& domain) const {
   write_all_but_frames(out.id(), meta_, domain);
   const h5::Handle frames = h5::make_group(out.id(), "frames");
   for (const auto& [step, source] : frames_)
-    h5::check(H5Lcreate_external(source.file.c_str(), source.group.c_str(), frames.id(), name_of(step).c_str(), H5P_DEFAULT,
-                                 H5P_DEFAULT),
+    h5::check(H5Lcreate_external(source.file.c_str(), source.group.c_str(), frames.id(), name_of(step).c_str(),
+                                 H5P_DEFAULT, H5P_DEFAULT),
               "link a frame");
   write_atomically(record_, {out.image()});
 }

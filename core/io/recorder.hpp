@@ -57,17 +57,17 @@ class Recorder {
 
   /// Writes a run.h5 that has no frames yet.
   static Recorder fresh(RunFolder& folder, RunMeta meta, Options options, const Domain& domain);
-  /// Takes up the frames up to and with `step` and drops later ones; breaks are those of the domain, as loaded. Everything is looked at
-  /// before anything is changed. What is damaged is kept under another name (run.h5.damaged), and told in `notes`.
-  static Recorder resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain,
-                         std::int64_t step);
+  /// Takes up the frames up to and with `step` and drops later ones; breaks are those of the domain, as loaded.
+  /// Everything is looked at before anything is changed. What is damaged is kept under another name (run.h5.damaged),
+  /// and told in `notes`.
+  static Recorder resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain, std::int64_t step);
 
   /// Adds a frame. A second request at the same step adds its columns to the first one's.
   void write(const FrameStamp& stamp, const FrameRequest& request, const Domain& domain);
   /// Brings the log of breaks in run.h5 up to date without a frame.
   void write_breaks(const Domain& domain);
-  /// For an orderly end, as the last call: makes run.h5 one file that needs no other. Returns false, with run.h5 and the frames left
-  /// as they are and `reason` set, if that cannot be done (disk full).
+  /// For an orderly end, as the last call: makes run.h5 one file that needs no other. Returns false, with run.h5 and
+  /// the frames left as they are and `reason` set, if that cannot be done (disk full).
   bool consolidate(const Domain& domain, std::string& reason);
   /// What was found damaged and set aside, a sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -90,7 +90,8 @@ class Recorder {
 
   Recorder(RunFolder& folder, RunMeta meta, Options options);
   Found survey(std::int64_t step);
-  void look_into(const Path& file, const std::string& frames_in, const std::string& as, std::int64_t step, Found& found);
+  void look_into(const Path& file, const std::string& frames_in, const std::string& as, std::int64_t step,
+                 Found& found);
   void take_up(Found found);
   std::vector<Path> frame_files() const;
   Path place_for_record() const;

@@ -18,9 +18,10 @@ namespace {
 using Path = std::filesystem::path;
 using std::error_code;
 
-// What every run writes. The checkpoint is removed first and the summary last: a removal that is cut short leaves a folder that still
-// counts as a run, but never one that could be resumed with half of its files.
-const std::vector<std::string> files_of_a_run = {"checkpoint.h5", "run.h5", "run.xmf", "run.log", "resolved.xml", "summary.json"};
+// What every run writes. The checkpoint is removed first and the summary last: a removal that is cut short leaves a
+// folder that still counts as a run, but never one that could be resumed with half of its files.
+const std::vector<std::string> files_of_a_run = {"checkpoint.h5", "run.h5",       "run.xmf",
+                                                 "run.log",       "resolved.xml", "summary.json"};
 constexpr const char* folders_of_a_run[] = {"curves", "frames"};
 
 bool is_part(const Path& file) { return file.extension() == ".part"; }
@@ -28,8 +29,8 @@ bool is_part(const Path& file) { return file.extension() == ".part"; }
 std::vector<Path> entries_of(const Path& folder) {
   error_code error;
   std::vector<Path> entries;
-  for (auto it = std::filesystem::directory_iterator(folder, error); !error && it != std::filesystem::directory_iterator();
-       it.increment(error))
+  for (auto it = std::filesystem::directory_iterator(folder, error);
+       !error && it != std::filesystem::directory_iterator(); it.increment(error))
     entries.push_back(it->path());
   if (error) throw file_failure("read folder", folder, error.value());
   return entries;
@@ -70,12 +71,13 @@ bool holds_nothing(const Path& root) {
 [[noreturn]] void refuse_content(const Path& root) {
   error_code error;
   if (std::filesystem::exists(root / "resolved.xml", error) && std::filesystem::exists(root / "run.log", error))
-    throw DeckFailure(fmt::format("folder '{}' holds a run of a Beadwork that kept no list of its files ({}), so it cannot be told "
-                                  "from others' files and is left alone; choose another folder, or remove it",
-                                  root.string(), Manifest::file_name));
-  throw DeckFailure(fmt::format("folder '{}' is not empty and holds no run (it has '{}'); choose another, nothing is "
-                                "removed from it",
-                                root.string(), entries_of(root).front().filename().string()));
+    throw DeckFailure(
+        fmt::format("folder '{}' holds a run of a Beadwork that kept no list of its files ({}), so it cannot be told "
+                    "from others' files and is left alone; choose another folder, or remove it",
+                    root.string(), Manifest::file_name));
+  throw DeckFailure(
+      fmt::format("folder '{}' is not empty and holds no run (it has '{}'); choose another, nothing is removed from it",
+                  root.string(), entries_of(root).front().filename().string()));
 }
 
 void remove_run(const Path& root, const Manifest& manifest) {
@@ -91,7 +93,8 @@ void remove_run(const Path& root, const Manifest& manifest) {
     remove_file(part_of(root / file));
   }
   error_code error;
-  for (const char* folder : folders_of_a_run) std::filesystem::remove(root / folder, error);  // refuses one that is not empty, as we want
+  for (const char* folder : folders_of_a_run)
+    std::filesystem::remove(root / folder, error);  // refuses one that is not empty, as we want
 }
 
 }  // namespace
@@ -113,9 +116,10 @@ RunFolder RunFolder::fresh(const Path& root, bool overwrite) {
   auto former = Manifest::read(root);
   if (!former && !holds_nothing(root)) refuse_content(root);
   if (former && !overwrite)
-    throw DeckFailure(fmt::format("folder '{}' already holds a run; choose another, or add --overwrite to replace the "
-                                  "run, or --resume to continue it",
-                                  root.string()));
+    throw DeckFailure(
+        fmt::format("folder '{}' already holds a run; choose another, or add --overwrite to replace the run, or "
+                    "--resume to continue it",
+                    root.string()));
   if (former)
     folder.former_ = std::move(former);
   else
@@ -151,9 +155,9 @@ RunFolder RunFolder::resume(const Path& root) {
   RunFolder folder(root);
   folder.lock();
   if (!std::filesystem::exists(folder.checkpoint(), error))
-    throw DeckFailure(fmt::format("folder '{}' has no checkpoint.h5, so there is nothing to resume; run the deck "
-                                  "without --resume",
-                                  root.string()));
+    throw DeckFailure(
+        fmt::format("folder '{}' has no checkpoint.h5, so there is nothing to resume; run the deck without --resume",
+                    root.string()));
   folder.manifest_ = Manifest::read(root);
   if (!folder.manifest_) refuse_content(root);
   return folder;
@@ -163,7 +167,8 @@ void RunFolder::clear_leftovers() const {
   for (const Path& folder : {root_, frames(), curves()}) {
     if (folder != root_ && !is_own_folder(folder)) continue;
     for (const Path& entry : entries_of(folder)) {
-      const bool ours = is_part(entry) && manifest_->lists(entry.lexically_relative(root_).replace_extension().string());
+      const bool ours =
+          is_part(entry) && manifest_->lists(entry.lexically_relative(root_).replace_extension().string());
       if (ours) remove_file(entry);
     }
   }
@@ -174,7 +179,8 @@ void RunFolder::claim(const Path& file) {
   if (former_) throw std::logic_error(fmt::format("'{}' is claimed where a former run still stands", file.string()));
   const Path relative = file.lexically_relative(root_);
   manifest_->claim(relative.string());
-  if (relative.has_parent_path() && !is_own_folder(root_ / relative.parent_path())) make_folder(root_ / relative.parent_path());
+  if (relative.has_parent_path() && !is_own_folder(root_ / relative.parent_path()))
+    make_folder(root_ / relative.parent_path());
 }
 
 std::vector<std::filesystem::path> RunFolder::made_in(const Path& folder) {
@@ -193,8 +199,8 @@ void RunFolder::lock() {
   if (!lock_) throw file_failure("open folder", root_, errno);
   // Some network file systems have no locks; there two runs in one folder are the user's own care.
   if (::flock(lock_.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw DeckFailure(fmt::format("another run is writing folder '{}'; wait for it, or choose another folder",
-                                  root_.string()));
+    throw DeckFailure(
+        fmt::format("another run is writing folder '{}'; wait for it, or choose another folder", root_.string()));
 }
 
 }  // namespace beadwork

@@ -1,6 +1,6 @@
 #pragma once
-// The folder that a run writes, where its files stand, and which of them it made. One run at a time: the folder stays locked while
-// this lives.
+// The folder that a run writes, where its files stand, and which of them it made. One run at a time: the folder stays
+// locked while this lives.
 
 #include <filesystem>
 #include <optional>
@@ -13,17 +13,17 @@
 
 namespace beadwork {
 
-/// Makes the folder that a "run" or a "batch" writes, where there is none. DeckFailure if something else stands there or the name can be none,
-/// MachineFailure if the machine cannot.
+/// Makes the folder that a "run" or a "batch" writes, where there is none. DeckFailure if something else stands there
+/// or the name can be none, MachineFailure if the machine cannot.
 void make_output_folder(const std::filesystem::path& root, std::string_view what);
 
 class RunFolder {
  public:
   using Path = std::filesystem::path;
 
-  /// Makes the folder, or takes an empty one. One that holds a run is refused unless `overwrite`, and stays as it is until
-  /// the new one takes over; one that holds something else is refused always. DeckFailure for what the user asks and should not
-  /// get, MachineFailure for what the machine cannot do.
+  /// Makes the folder, or takes an empty one. One that holds a run is refused unless `overwrite`, and stays as it is
+  /// until the new one takes over; one that holds something else is refused always. DeckFailure for what the user asks
+  /// and should not get, MachineFailure for what the machine cannot do.
   static RunFolder fresh(const Path& root, bool overwrite);
   /// Removes the files that a former run made, and nothing else: to be called when the new one is known to begin.
   void take_over();
@@ -34,7 +34,8 @@ class RunFolder {
   /// Before a resumed run writes: removes what a kill left half written, and makes folders that are missing.
   void clear_leftovers() const;
 
-  /// To be called before a file of the folder is made that has no place below. DeckFailure if somebody else's stands there.
+  /// To be called before a file of the folder is made that has no place below. DeckFailure if somebody else's stands
+  /// there.
   void claim(const Path& file);
   /// The files that runs made in a folder of this one, and that are there, sorted.
   std::vector<Path> made_in(const Path& folder);

@@ -12,16 +12,19 @@ namespace beadwork {
 namespace {
 
 const XdmfArray& array(const XdmfGrid& grid, std::string_view name) {
-  const auto found = std::find_if(grid.arrays.begin(), grid.arrays.end(), [&](const auto& a) { return a.name == name; });
+  const auto found =
+      std::find_if(grid.arrays.begin(), grid.arrays.end(), [&](const auto& a) { return a.name == name; });
   if (found == grid.arrays.end()) throw std::logic_error(fmt::format("grid '{}' has no array '{}'", grid.name, name));
   return *found;
 }
 
 std::string data_item(const XdmfGrid& grid, const XdmfArray& array, std::string_view file) {
-  const std::string extent = array.width > 1 ? fmt::format("{} {}", array.rows, array.width) : fmt::format("{}", array.rows);
+  const std::string extent =
+      array.width > 1 ? fmt::format("{} {}", array.rows, array.width) : fmt::format("{}", array.rows);
   const char* type = !array.integer ? "Float" : array.bytes == 1 ? "UChar" : "Int";
-  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}/{}</DataItem>", extent,
-                     type, array.bytes, file, xml_escaped(grid.group), xml_escaped(array.name));
+  return fmt::format(
+      "<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Format=\"HDF\">{}:{}/{}</DataItem>", extent, type,
+      array.bytes, file, xml_escaped(grid.group), xml_escaped(array.name));
 }
 
 const char* attribute_type(std::size_t width) { return width == 1 ? "Scalar" : width == 3 ? "Vector" : "Matrix"; }
@@ -30,8 +33,8 @@ std::string attributes(const XdmfGrid& grid, std::string_view skip, const char* 
   std::string out;
   for (const XdmfArray& a : grid.arrays)
     if (a.name != skip)
-      out += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n", xml_escaped(a.name),
-                         attribute_type(a.width), center, data_item(grid, a, file));
+      out += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                         xml_escaped(a.name), attribute_type(a.width), center, data_item(grid, a, file));
   return out;
 }
 
@@ -41,8 +44,8 @@ std::string geometry(const XdmfGrid& elements, std::string_view file) {
 }
 
 std::string uniform(Real time, const std::string& name, const std::string& content) {
-  return fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n{}   </Grid>\n", xml_escaped(name), time,
-                     content);
+  return fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n    <Time Value=\"{}\"/>\n{}   </Grid>\n",
+                     xml_escaped(name), time, content);
 }
 
 XdmfPart points(Real time, const XdmfGrid& elements, std::string_view file) {
@@ -57,8 +60,8 @@ XdmfPart points(Real time, const XdmfGrid& elements, std::string_view file) {
 XdmfPart lines(Real time, const XdmfGrid& bonds, const XdmfGrid& elements, std::string_view file) {
   const XdmfArray& ends = array(bonds, "ends");
   const std::string topology = fmt::format(
-      "    <Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>\n", ends.rows,
-      data_item(bonds, ends, file));
+      "    <Topology TopologyType=\"Polyline\" NumberOfElements=\"{}\" NodesPerElement=\"2\">{}</Topology>\n",
+      ends.rows, data_item(bonds, ends, file));
   const std::string content = topology + geometry(elements, file) + attributes(bonds, "ends", "Cell", file);
   return {bonds.name, uniform(time, bonds.name, content)};
 }

@@ -50,7 +50,9 @@ std::vector<Constraint> Stage::constraints() const {
   return all;
 }
 
-bool Stage::watched_by(const Watcher& watcher) const { return std::find(watchers.begin(), watchers.end(), &watcher) != watchers.end(); }
+bool Stage::watched_by(const Watcher& watcher) const {
+  return std::find(watchers.begin(), watchers.end(), &watcher) != watchers.end();
+}
 
 void Scene::bind() const {
   for (const auto& plugin : plugins) plugin->bind(*domain);
@@ -90,12 +92,14 @@ void Assembly::run() {
   merge_common_into_stages();
   check_names();
   for (Stage& stage : scene_.stages) check_stage(stage);
-  if (is_read(Kind::fill) && std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
+  if (is_read(Kind::fill) &&
+      std::none_of(scene_.fillers.begin(), scene_.fillers.end(), [](const Filler* f) { return !f->after_filling(); }))
     complaints_.error(deck_.root->at, "the scene has no elements: <fill> needs a plugin that makes some");
   if (is_read(Kind::load)) complain_of_hopeless();
   if (complaints_.errors() == 0) {  // else a law or a load may be missing that is only misspelt
     for (const Stage& stage : scene_.stages)
-      blaming(stage.mover(), "check_stage", [&] { stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_); });
+      blaming(stage.mover(), "check_stage",
+              [&] { stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_); });
     check_watchers();
   }
   deck_.scope.complain_about_unused(*deck_.root, complaints_);
@@ -115,7 +119,8 @@ void Assembly::read_root() {
       if (const auto text = read_text(attribute, deck_.scope, complaints_)) scene_.name = *text;
     } else if (attribute.name == "seed") {
       const auto seed = read_integer(attribute, deck_.scope, complaints_);
-      if (seed && *seed < 0) complaints_.error(attribute.value_at, fmt::format("'seed' must be >= 0, got \"{}\"", attribute.value));
+      if (seed && *seed < 0)
+        complaints_.error(attribute.value_at, fmt::format("'seed' must be >= 0, got \"{}\"", attribute.value));
       if (seed) scene_.seed = static_cast<std::uint64_t>(*seed);
     } else if (attribute.name != "plugins") {
       complaints_.error(attribute.name_at, fmt::format("<scene> has no attribute '{}'{}", attribute.name,
@@ -147,7 +152,8 @@ void Assembly::read_sections(const Node& parent, Stage& stage, bool inside_stage
       }
       const auto [there, fresh] = until_nodes_.try_emplace(made.name, child.get());
       if (!fresh)
-        complaints_.error(child->at, fmt::format("stage '{}' exists already, made at {}", made.name, there->second->at.where()));
+        complaints_.error(child->at,
+                          fmt::format("stage '{}' exists already, made at {}", made.name, there->second->at.where()));
       read_sections(*child, made, true);
     } else {
       const auto known = section_names(inside_stage);
@@ -184,7 +190,8 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage) {
 }
 
 std::unique_ptr<Plugin> Assembly::make(Kind kind, const std::string& tag, const Location& at) {
-  if (const std::string library = catalogue_.named_library(kind, tag); !library.empty()) scene_.libraries.insert(library);
+  if (const std::string library = catalogue_.named_library(kind, tag); !library.empty())
+    scene_.libraries.insert(library);
   return catalogue_.make(kind, tag, at.where());
 }
 
@@ -192,7 +199,8 @@ void Assembly::complain_of_tag(Kind kind, const Node& node) {
   const auto elsewhere = catalogue_.kinds_of(node.tag);
   unread_kinds_.insert(elsewhere.begin(), elsewhere.end());
   if (!elsewhere.empty()) {
-    complaints_.error(node.at, fmt::format("<{}> belongs in <{}>, not in <{}>", node.tag, kind_name(elsewhere.front()), kind_name(kind)));
+    complaints_.error(node.at, fmt::format("<{}> belongs in <{}>, not in <{}>", node.tag, kind_name(elsewhere.front()),
+                                           kind_name(kind)));
     return;
   }
   complaints_.error(node.at, fmt::format("no <{}> in <{}>{}", node.tag, kind_name(kind),
@@ -271,7 +279,8 @@ void Assembly::compile_until(Stage& stage) {
   if (own) {
     const ParamBase& second = stage.mover().until;
     if (second.in_deck() && !holds(common_.movers, &stage.mover()))
-      complaints_.error(second.at(), fmt::format("'until' of stage '{}' is given twice, also at {}", stage.name, own->value_at.where()));
+      complaints_.error(second.at(), fmt::format("'until' of stage '{}' is given twice, also at {}", stage.name,
+                                                 own->value_at.where()));
     const auto read = read_text(*own, deck_.scope, complaints_);
     if (!read) return;
     text = *read;
@@ -284,13 +293,15 @@ void Assembly::compile_until(Stage& stage) {
   } else if (!is_read(Kind::move)) {
     return;  // it may be there, misspelt
   } else {
-    complaints_.error(stage.mover().at(), fmt::format("<{}> needs 'until': {}", stage.mover().tag(), stage.mover().until.info().doc));
+    complaints_.error(stage.mover().at(),
+                      fmt::format("<{}> needs 'until': {}", stage.mover().tag(), stage.mover().until.info().doc));
     return;
   }
   stage.until = Until::compile(text, at, deck_.scope, complaints_);
   if (!stage.until) return;
   const auto prospects = stage.until->prospects(stage.constraints());
-  const bool ends = std::any_of(prospects.begin(), prospects.end(), [](const Until::Prospect& p) { return p.why_never.empty(); });
+  const bool ends =
+      std::any_of(prospects.begin(), prospects.end(), [](const Until::Prospect& p) { return p.why_never.empty(); });
   for (const Until::Prospect& p : prospects) {
     if (!ends) endless_.push_back(p);
     note_prospect("until", p.at, p.why_never);

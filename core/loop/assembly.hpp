@@ -78,10 +78,11 @@ class Assembly {
     std::string why_never;
     bool comes = false;  ///< in one of the stages in which it stands
   };
-  std::map<std::string, Hope> hopes_;  ///< what 'until' and 'at' wait for, by place
+  std::map<std::string, Hope> hopes_;     ///< what 'until' and 'at' wait for, by place
   std::vector<Until::Prospect> endless_;  ///< of stages that would never end
   std::map<std::string, int> counts_;
-  // One mistake, one message: what follows only from a tag, an attribute or a value that could not be read is not told too.
+  // One mistake, one message: what follows only from a tag, an attribute or a value that could not be read is not told
+  // too.
   std::set<Kind> unread_kinds_;         ///< sections in which something could not be read
   std::set<std::string> unread_names_;  ///< words of what could not be read: may name sets and families
 };

@@ -26,7 +26,8 @@ void Assembly::choose_rotations() {
                 (use->field().name == "orientation" || use->field().name == "torque" || use->field().name == "spin");
   }
   for (const auto& plugin : scene_.plugins)
-    if (auto* mover = dynamic_cast<Mover*>(plugin.get())) blaming(*mover, "choose_rotations", [&] { mover->choose_rotations(wanted); });
+    if (auto* mover = dynamic_cast<Mover*>(plugin.get()))
+      blaming(*mover, "choose_rotations", [&] { mover->choose_rotations(wanted); });
 }
 
 void Assembly::add_families() {
@@ -46,7 +47,8 @@ Table* Assembly::table_of(const Plugin& plugin, On on) const {
 
 // The loops find the members of an element's line side by side in this order, whichever plugin asks first.
 void Assembly::begin_lines() {
-  for (const Field* field : {&field::position, &field::orientation, &field::velocity, &field::spin, &field::force, &field::torque}) {
+  for (const Field* field :
+       {&field::position, &field::orientation, &field::velocity, &field::spin, &field::force, &field::torque}) {
     const auto asks = [&](const auto& plugin) {
       return std::any_of(plugin->uses().begin(), plugin->uses().end(), [&](const FieldUse* use) {
         return use->wanted() && use->field().on == On::elements && use->field().name == field->name &&
@@ -78,7 +80,8 @@ void Assembly::meet_readers() {
     const Plugin& plugin = *scene_.plugins[p];
     std::map<On, std::vector<std::string>> missing;
     for (const FieldUse* use : plugin.uses())
-      if (use->wanted() && use->verb() == Verb::reads && !meet(plugin, *use)) missing[use->field().on].push_back(use->field().name);
+      if (use->wanted() && use->verb() == Verb::reads && !meet(plugin, *use))
+        missing[use->field().on].push_back(use->field().name);
     for (const auto& [on, names] : missing) complain_of_missing(plugin, on, names);
     for (const ParamBase* param : plugin.params())
       if (param->info().role == Role::fields && param->given()) meet_names(plugin, *param);
@@ -102,8 +105,10 @@ void Assembly::complain_of_missing(const Plugin& reader, On on, const std::vecto
   std::string listed;
   for (std::size_t k = 0; k < names.size(); ++k)
     listed += fmt::format("{}'{}'", k == 0 ? "" : k + 1 == names.size() ? " and " : ", ", names[k]);
-  complaints_.error(reader.at(), fmt::format("<{}> reads {} of {}, which nothing in this deck provides{}", reader.tag(), listed, holder,
-                                             did_you_mean(names.size() == 1 ? names.front() : "", providable(on, reader.family()))));
+  complaints_.error(
+      reader.at(),
+      fmt::format("<{}> reads {} of {}, which nothing in this deck provides{}", reader.tag(), listed, holder,
+                  did_you_mean(names.size() == 1 ? names.front() : "", providable(on, reader.family()))));
 }
 
 // Fields asked for by name, wherever they are: on the elements, on every family that has them.
@@ -123,8 +128,8 @@ void Assembly::meet_names(const Plugin& reader, const ParamBase& fields) {
     std::vector<std::string> known = providable(On::elements, "");
     for (const std::string& family : scene_.families)
       for (const std::string& more : providable(On::bonds, family)) known.push_back(more);
-    complaints_.error(fields.at(name), fmt::format("'{}' names field \"{}\", which nothing in this deck provides{}", fields.info().name,
-                                               name, did_you_mean(name, known)));
+    complaints_.error(fields.at(name), fmt::format("'{}' names field \"{}\", which nothing in this deck provides{}",
+                                                   fields.info().name, name, did_you_mean(name, known)));
   }
 }
 
@@ -146,7 +151,8 @@ bool Assembly::can_derive(const std::string& name) const {
   const std::unique_ptr<Plugin> plugin = catalogue_.make(Kind::derive, name);
   const auto known = providable(On::elements, "");
   return std::all_of(plugin->uses().begin(), plugin->uses().end(), [&](const FieldUse* use) {
-    return use->verb() != Verb::reads || (use->field().on == On::elements && std::find(known.begin(), known.end(), use->field().name) != known.end());
+    return use->verb() != Verb::reads ||
+           (use->field().on == On::elements && std::find(known.begin(), known.end(), use->field().name) != known.end());
   });
 }
 
@@ -204,7 +210,8 @@ std::vector<std::string> Assembly::providable(On on, const std::string& family) 
   for (const char* own : {"id", "first", "second", "target"}) names.erase(own);  // what the core keeps for itself
   for (const auto& plugin : scene_.plugins)
     for (const FieldUse* use : plugin->uses())
-      if (use->wanted() && use->verb() == Verb::writes && use->field().on == on && (on != On::bonds || plugin->family() == family))
+      if (use->wanted() && use->verb() == Verb::writes && use->field().on == on &&
+          (on != On::bonds || plugin->family() == family))
         names.insert(use->field().name);
   if (on == On::elements)
     for (const std::string& tag : catalogue_.tags(Kind::derive)) names.insert(tag);

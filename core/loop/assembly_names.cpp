@@ -21,7 +21,8 @@ std::set<std::string> Assembly::made_names(Role role, const std::string& what) {
         const auto* filler = dynamic_cast<const Filler*>(plugin.get());
         const auto [there, fresh] = made.try_emplace(name, p->at());
         if (!fresh && (role == Role::makes_family || (filler && filler->after_filling())))
-          complaints_.error(p->at(), fmt::format("{} '{}' exists already, made at {}", what, name, there->second.where()));
+          complaints_.error(p->at(),
+                            fmt::format("{} '{}' exists already, made at {}", what, name, there->second.where()));
       }
     }
   return names;
@@ -38,8 +39,8 @@ void Assembly::check_uses_of(Role role, const std::string& what, const std::set<
       for (const std::string& name : p->names())
         if (!known.contains(name) && !unread_names_.contains(name))
           complaints_.error(p->at(name), fmt::format("'{}' names {} \"{}\"{}", p->info().name, what, name,
-                                                 known.empty() ? ", but the deck makes none"
-                                                               : did_you_mean(name, {known.begin(), known.end()})));
+                                                     known.empty() ? ", but the deck makes none"
+                                                                   : did_you_mean(name, {known.begin(), known.end()})));
     }
 }
 
@@ -55,7 +56,8 @@ void Assembly::check_order_of_regions() {
     for (const ParamBase* p : filler->params())
       for (const std::string& name : p->names())
         if (p->info().role == Role::set && later.contains(name))
-          complaints_.error(p->at(), fmt::format("set '{}' is made only later, at {}: put that in front", name, later.at(name)->at().where()));
+          complaints_.error(p->at(), fmt::format("set '{}' is made only later, at {}: put that in front", name,
+                                                 later.at(name)->at().where()));
     std::erase_if(later, [&](const auto& made) { return made.second == filler; });
   }
 }
@@ -70,8 +72,8 @@ void Assembly::check_curve_names() {
     const auto [there, fresh] = taken.try_emplace(name->text(), watcher);
     if (!fresh)
       complaints_.error(name->in_deck() ? name->at() : watcher->at(),
-                        fmt::format("a curve '{}' exists already, made at {}: give this one another 'name'", name->text(),
-                                    there->second->at().where()));
+                        fmt::format("a curve '{}' exists already, made at {}: give this one another 'name'",
+                                    name->text(), there->second->at().where()));
   }
 }
 
@@ -83,7 +85,8 @@ std::vector<const Watcher*> Assembly::watchers() const {
 }
 
 void Assembly::check_name(const ParamBase& param, const std::string& name) {
-  if (!is_plain_name(name)) complaints_.error(param.at(), fmt::format("'{}' wants {}, got \"{}\"", param.info().name, plain_name, name));
+  if (!is_plain_name(name))
+    complaints_.error(param.at(), fmt::format("'{}' wants {}, got \"{}\"", param.info().name, plain_name, name));
 }
 
 // It is told now, not after the filling that stands in front.

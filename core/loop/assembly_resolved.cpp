@@ -9,8 +9,13 @@ namespace beadwork {
 void Assembly::resolve() {
   const Node& root = *deck_.root;
   const auto place = [&](const char* name) { return root.find(name) ? root.find(name)->value_at : root.at; };
-  PlainNode plain{"scene", {{"name", scene_.name, place("name")}, {"seed", std::to_string(scene_.seed), place("seed")}}, {}, root.at};
-  if (!scene_.libraries.empty()) plain.attributes.push_back({"plugins", text_of_paths({scene_.libraries.begin(), scene_.libraries.end()}), place("plugins")});
+  PlainNode plain{"scene",
+                  {{"name", scene_.name, place("name")}, {"seed", std::to_string(scene_.seed), place("seed")}},
+                  {},
+                  root.at};
+  if (!scene_.libraries.empty())
+    plain.attributes.push_back(
+        {"plugins", text_of_paths({scene_.libraries.begin(), scene_.libraries.end()}), place("plugins")});
   std::size_t plugins = 0, stages = 0;
   resolve_sections(root, plain, plugins, stages);
   scene_.resolved = resolved_xml(plain);
@@ -22,7 +27,8 @@ void Assembly::resolve_sections(const Node& parent, PlainNode& plain, std::size_
   for (const auto& child : parent.children) {
     PlainNode& made = plain.children.emplace_back(PlainNode{child->tag, {}, {}, child->at});
     if (child->tag != "stage") {
-      for (std::size_t k = 0; k < child->children.size(); ++k) made.children.push_back(resolved(*scene_.plugins[plugins++]));
+      for (std::size_t k = 0; k < child->children.size(); ++k)
+        made.children.push_back(resolved(*scene_.plugins[plugins++]));
       continue;
     }
     const Stage& stage = scene_.stages[stages++];
@@ -48,9 +54,11 @@ std::string Assembly::resolved(const Plugin& plugin, const ParamBase& param) {
   }
   if (const auto* watcher = dynamic_cast<const Watcher*>(&plugin); watcher && &param == &watcher->moments) {
     std::vector<std::string> marks;
-    for (const Mark& mark : Mark::list(*watcher->moments, "at", param.at(), deck_.scope, complaints_)) marks.push_back(mark.si());
+    for (const Mark& mark : Mark::list(*watcher->moments, "at", param.at(), deck_.scope, complaints_))
+      marks.push_back(mark.si());
     const auto words = split(*watcher->moments, ',');
-    if (std::any_of(words.begin(), words.end(), [](const std::string& word) { return trim(word) == "end"; })) marks.push_back("end");
+    if (std::any_of(words.begin(), words.end(), [](const std::string& word) { return trim(word) == "end"; }))
+      marks.push_back("end");
     return join(marks, ", ");
   }
   return param.text();

@@ -32,13 +32,14 @@ Real largest_force(std::span<const Constraint> constraints) {
   return largest;
 }
 
-// Sum of the forces along the axis where it is largest: of all that is prescribed, or, where loads push as well, of all that moves the
-// elements: forces of bonds are pairs and leave nothing in it.
+// Sum of the forces along the axis where it is largest: of all that is prescribed, or, where loads push as well, of all
+// that moves the elements: forces of bonds are pairs and leave nothing in it.
 Real unbalanced_force(const Domain& domain, std::span<const Constraint> constraints, bool pushed) {
   Vec3 sum = Vec3::Zero();
   if (pushed) {
     const auto force = domain.elements().column("force").view<Vec3>();
-    for (int axis = 0; axis < 3; ++axis) sum[axis] = fixed_sum(domain.size(), [&](Index i) { return force.at(i, axis); });
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] = fixed_sum(domain.size(), [&](Index i) { return force.at(i, axis); });
   } else {
     for (const Constraint& c : constraints)
       if (c.axis < 3) sum[c.axis] += c.reaction;
@@ -47,7 +48,9 @@ Real unbalanced_force(const Domain& domain, std::span<const Constraint> constrai
 }
 
 bool pushes(const Load& load) {
-  return std::any_of(load.uses().begin(), load.uses().end(), [](const FieldUse* use) { return use->wanted() && use->verb() == Verb::adds && use->field().name == "force"; });
+  return std::any_of(load.uses().begin(), load.uses().end(), [](const FieldUse* use) {
+    return use->wanted() && use->verb() == Verb::adds && use->field().name == "force";
+  });
 }
 
 Index fastest_element(const Domain& domain) {
@@ -61,7 +64,11 @@ Index fastest_element(const Domain& domain) {
 }  // namespace
 
 Balance::Balance(RunState& state, Fresh& fresh, const Log& log)
-    : state_(state), fresh_(fresh), log_(log), ledger_(state.domain().scene()), quality_(state.domain(), state.most_held()) {}
+    : state_(state),
+      fresh_(fresh),
+      log_(log),
+      ledger_(state.domain().scene()),
+      quality_(state.domain(), state.most_held()) {}
 
 void Balance::energies(EnergySink& sink) const {
   for (const auto& of_stage : state_.constraints)
@@ -93,9 +100,13 @@ void Balance::release(const Stage& next) {
   std::erase_if(state_.laws, [&](const auto& acting) {
     const auto& [law, table] = acting;
     if (std::find(next.laws.begin(), next.laws.end(), law) != next.laws.end()) return false;
-    const Real held = blaming(*law, state_.moment, [&, law = law, table = table] { return law->stored_energy(state_.domain(), *table); });
-    state_.released_by(*table) += held + blaming(*law, state_.moment, [&, law = law, table = table] { return law->dissipated_energy(state_.domain(), *table); });
-    log_.say(fmt::format("bond family '{}' acts no longer: the {:.4g} J that it held are booked as dissipated", law->family(), held));
+    const Real held = blaming(*law, state_.moment,
+                              [&, law = law, table = table] { return law->stored_energy(state_.domain(), *table); });
+    state_.released_by(*table) += held + blaming(*law, state_.moment, [&, law = law, table = table] {
+                                    return law->dissipated_energy(state_.domain(), *table);
+                                  });
+    log_.say(fmt::format("bond family '{}' acts no longer: the {:.4g} J that it held are booked as dissipated",
+                         law->family(), held));
     return true;
   });
   left_at_stage_end_ = beyond_work();
@@ -123,7 +134,9 @@ void Balance::note_work() {
     for (const Constraint& c : of_stage) work += c.work;
   ledger_.note_work(work, state_.initial_energy);
   const std::vector<Constraint>& held = state_.held();
-  quality_.note_load(held.size(), [&](std::size_t k) -> Real { return held[k].axis < 3 ? Real(held[k].reaction) : 0; }, !state_.domain().breaks().breaks.empty());
+  quality_.note_load(
+      held.size(), [&](std::size_t k) -> Real { return held[k].axis < 3 ? Real(held[k].reaction) : 0; },
+      !state_.domain().breaks().breaks.empty());
 }
 
 Ledger::Verdict Balance::look() {
@@ -138,15 +151,20 @@ void Balance::check() {
   const auto verdict = look();
   if (verdict == Ledger::Verdict::balanced) return;
   const Mover& mover = state_.mover();
-  const auto surplus = fmt::format("the energy balance has an excess of {:.4g} J that no work accounts for, {:.3g} {} the largest input so far, {:.4g} J",
-                                   ledger_.gained(), verdict == Ledger::Verdict::gains ? 100 * ledger_.gained() / ledger_.brought() : ledger_.gained() / ledger_.brought(),
-                                   verdict == Ledger::Verdict::gains ? "% of" : "times", ledger_.brought());
+  const auto surplus = fmt::format(
+      "the energy balance has an excess of {:.4g} J that no work accounts for, {:.3g} {} the largest input so far, "
+      "{:.4g} J",
+      ledger_.gained(),
+      verdict == Ledger::Verdict::gains ? 100 * ledger_.gained() / ledger_.brought()
+                                        : ledger_.gained() / ledger_.brought(),
+      verdict == Ledger::Verdict::gains ? "% of" : "times", ledger_.brought());
   const std::int64_t step = state_.moment.step;
   if (verdict == Ledger::Verdict::gains) {
     if (ledger_.tells()) log_.warn(fmt::format("step {}: {}; {}", step, surplus, mover.suspect()));
     return;
   }
-  throw PhysicsFailure(fmt::format("step {}: {}, and it grows; element {} is the fastest; {}", step, surplus, fastest_element(state_.domain()), mover.suspect()));
+  throw PhysicsFailure(fmt::format("step {}: {}, and it grows; element {} is the fastest; {}", step, surplus,
+                                   fastest_element(state_.domain()), mover.suspect()));
 }
 
 // Where loads prescribe something, what else could move as a whole is named.
@@ -155,12 +173,14 @@ void Balance::find_free_motions() {
   std::vector<const BondTable*> tables;
   for (const auto& acting : state_.laws) tables.push_back(acting.second);
   const bool turning = domain.elements().find("spin") != nullptr;
-  free_ = domain.elements().find("mass") ? FreeMotions::find(domain, tables, state_.held(), turning, state_.moment.step) : FreeMotions();
+  free_ = domain.elements().find("mass") ? FreeMotions::find(domain, tables, state_.held(), turning, state_.moment.step)
+                                         : FreeMotions();
   if (state_.held().empty()) return;
   for (const std::string& line : free_.words()) log_.say(line);
 }
 
-// In the step of the first break, which is complete, with what breaks in it: all may be over before the next look is due.
+// In the step of the first break, which is complete, with what breaks in it: all may be over before the next look is
+// due.
 void Balance::look_at_first_break() {
   if (!state_.domain().breaks().breaks.empty()) return;
   EnergySums sums;
@@ -181,12 +201,14 @@ void Balance::look_at_quality(const EnergySums& sums) {
                  .load = largest_force(held),
                  .imbalance = unbalanced_force(domain, held, pushed),
                  .broken = !breaks.empty()});
-  if (free_.any() && (breaks.empty() || breaks.back().step <= state_.moment.stage_step)) quality_.note_free_motion(free_.moved(domain), farthest_prescribed());
+  if (free_.any() && (breaks.empty() || breaks.back().step <= state_.moment.stage_step))
+    quality_.note_free_motion(free_.moved(domain), farthest_prescribed());
 }
 
 // In whichever stage.
 bool Balance::prescribes() const {
-  return std::any_of(state_.constraints.begin(), state_.constraints.end(), [](const auto& of_stage) { return !of_stage.empty(); });
+  return std::any_of(state_.constraints.begin(), state_.constraints.end(),
+                     [](const auto& of_stage) { return !of_stage.empty(); });
 }
 
 // So far, in whichever stage.
@@ -207,7 +229,9 @@ QualityFigures Balance::quality(bool failed) const {
   }
   const Domain& domain = state_.domain();
   const auto radius = domain.elements().column("radius").view<Real>();
-  quality_.tell(figures, domain.size() > 0 ? fixed_sum(domain.size(), [&](Index i) { return radius[i]; }) / static_cast<Real>(domain.size()) : 0);
+  quality_.tell(figures, domain.size() > 0 ? fixed_sum(domain.size(), [&](Index i) { return radius[i]; }) /
+                                                 static_cast<Real>(domain.size())
+                                           : 0);
   figures.failed = failed;
   figures.dynamic = !prescribes() || quality_.flown() > 0.1 * brought;
   return figures;

@@ -1,6 +1,6 @@
 #pragma once
-// The energies of a run: they are asked of the plugins, held against what was brought, and tell with what else is seen how good the run is.
-// docs/theory/time-step.md, quasi-static.md
+// The energies of a run: they are asked of the plugins, held against what was brought, and tell with what else is seen
+// how good the run is. docs/theory/time-step.md, quasi-static.md
 
 #include "core/base/log.hpp"
 #include "core/loop/free_motion.hpp"
@@ -23,11 +23,13 @@ class Balance {
   void note_work();
   /// Whether it is time to look, which costs as much as some steps.
   bool is_due() const { return Ledger::due(state_.moment.step - state_.moment.stage_step); }
-  /// Looks. Energy from nothing is told once; throws PhysicsFailure where there is more of it than was ever brought and it grows.
+  /// Looks. Energy from nothing is told once; throws PhysicsFailure where there is more of it than was ever brought and
+  /// it grows.
   void check();
   /// Looks, and leaves it at that.
   Ledger::Verdict look();
-  /// Does `breaking`, which takes away forces that bonds had at the end of the step: what this costs by the size of the step is booked.
+  /// Does `breaking`, which takes away forces that bonds had at the end of the step: what this costs by the size of the
+  /// step is booked.
   template <class F>
   void over_break(const F& breaking) {
     fresh_.complete();  // with the forces of the bonds that break

@@ -1,5 +1,6 @@
 #pragma once
-// Reads JSON that anybody may have written: how deep it may be nested is bounded, since what walks over it afterwards calls itself.
+// Reads JSON that anybody may have written: how deep it may be nested is bounded, since what walks over it afterwards
+// calls itself.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -23,7 +24,8 @@ Json bounded_json(std::string_view text) {
   return too_deep ? Json(Json::value_t::discarded) : json;
 }
 
-/// The object in a file of a run; an empty one where there is no regular file of bearable length, or where it holds something else.
+/// The object in a file of a run; an empty one where there is no regular file of bearable length, or where it holds
+/// something else.
 template <class Json = nlohmann::ordered_json>
 Json bounded_object(const std::filesystem::path& file) {
   constexpr std::uintmax_t longest = std::uintmax_t{1} << 26;

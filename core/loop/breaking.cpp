@@ -9,7 +9,8 @@ namespace beadwork {
 
 bool Breaking::is_due() const {
   const auto& failures = state_.stage().failures;
-  return std::any_of(failures.begin(), failures.end(), [&](const Failure* failure) { return state_.moment.step % *failure->every == 0; });
+  return std::any_of(failures.begin(), failures.end(),
+                     [&](const Failure* failure) { return state_.moment.step % *failure->every == 0; });
 }
 
 void Breaking::heed_events() {
@@ -37,7 +38,9 @@ void Breaking::judge() {
     for (const Fallen& each : all) fell(each);
   });
   for (const auto& [law, table] : state_.laws)
-    if (std::any_of(all.begin(), all.end(), [&, family = law->family()](const Fallen& each) { return each.first->family() == family; })) table->sweep();
+    if (std::any_of(all.begin(), all.end(),
+                    [&, family = law->family()](const Fallen& each) { return each.first->family() == family; }))
+      table->sweep();
   count_live();
 }
 
@@ -48,7 +51,8 @@ std::vector<Breaking::Fallen> Breaking::fallen() {
     fresh_.for_criterion(*failure);
     Verdict verdict = fresh_.judge(*failure);
     for (auto& [criterion, use] : state_.uses)
-      if (criterion == failure) use.note(verdict, state_.domain(), *state_.domain().find_family(failure->family()), state_.moment);
+      if (criterion == failure)
+        use.note(verdict, state_.domain(), *state_.domain().find_family(failure->family()), state_.moment);
     if (!verdict.fallen.empty()) all.emplace_back(failure, std::move(verdict.fallen));
   }
   return all;
@@ -56,7 +60,8 @@ std::vector<Breaking::Fallen> Breaking::fallen() {
 
 void Breaking::fell(const Fallen& fallen) {
   Failure& failure = *fallen.first;
-  const auto acting = std::find_if(state_.laws.begin(), state_.laws.end(), [&](const ActingLaw& l) { return l.second->name() == failure.family(); });
+  const auto acting = std::find_if(state_.laws.begin(), state_.laws.end(),
+                                   [&](const ActingLaw& l) { return l.second->name() == failure.family(); });
   if (acting == state_.laws.end()) return;
   BondLaw& law = *acting->first;
   BondTable& table = *acting->second;
@@ -75,7 +80,8 @@ void Breaking::note(const BondTable& table, Index row, const std::string& mode, 
   const auto x = state_.domain().elements().column("position").view<Vec3>();
   const Vec3 place = 0.5 * (x[table.first()[row]] + x[table.second()[row]]);
   BreakLog& log = state_.domain().breaks();
-  log.breaks.push_back({state_.moment.time, state_.moment.step, state_.number_of(table), table.id()[row], log.mode(mode), place, energy});
+  log.breaks.push_back({state_.moment.time, state_.moment.step, state_.number_of(table), table.id()[row],
+                        log.mode(mode), place, energy});
 }
 
 void Breaking::count_live() {

@@ -1,6 +1,6 @@
 #pragma once
-// What breaks: criteria judge one configuration, then their bonds fall; laws tell what has opened by itself. Each is logged with its mode, and
-// its energy booked.
+// What breaks: criteria judge one configuration, then their bonds fall; laws tell what has opened by itself. Each is
+// logged with its mode, and its energy booked.
 
 #include "core/loop/balance.hpp"
 
@@ -8,14 +8,17 @@ namespace beadwork {
 
 class Breaking {
  public:
-  Breaking(RunState& state, Offered& offered, Fresh& fresh, Balance& balance) : state_(state), offered_(offered), fresh_(fresh), balance_(balance) {}
+  Breaking(RunState& state, Offered& offered, Fresh& fresh, Balance& balance)
+      : state_(state), offered_(offered), fresh_(fresh), balance_(balance) {}
 
   void begin_stage() { count_live(); }
   /// Whether a criterion judges at this step.
   bool is_due() const;
-  /// Changes that a law itself has made while settling, such as a contact that opened. What it carried was part of the step.
+  /// Changes that a law itself has made while settling, such as a contact that opened. What it carried was part of the
+  /// step.
   void heed_events();
-  /// All criteria that are due see one configuration; only then do bonds break, each once, in the order of the deck's criteria.
+  /// All criteria that are due see one configuration; only then do bonds break, each once, in the order of the deck's
+  /// criteria.
   void judge();
   /// Bonds that act.
   Real live() const { return live_; }

@@ -15,7 +15,6 @@ namespace beadwork {
 
 namespace {
 
-
 std::vector<char> membership(const Domain& domain, const std::string& set) {
   std::vector<char> member(static_cast<std::size_t>(domain.size()), 0);
   for (const Index row : domain.set(set)) member[static_cast<std::size_t>(row)] = 1;
@@ -38,7 +37,9 @@ std::vector<Pair> near_ones(const BondLaw& law, const Candidates& among, const P
   } catch (const std::invalid_argument& too_many) {
     refuse(law.gap.in_deck() ? law.gap.at() : law.at(), fmt::format("family '{}': {}", *law.name, too_many.what()));
   } catch (const std::bad_alloc&) {
-    refuse(law.gap.in_deck() ? law.gap.at() : law.at(), fmt::format("family '{}': there is not enough memory for the pairs that stand within this 'gap'", *law.name));
+    refuse(
+        law.gap.in_deck() ? law.gap.at() : law.at(),
+        fmt::format("family '{}': there is not enough memory for the pairs that stand within this 'gap'", *law.name));
   }
 }
 
@@ -63,7 +64,8 @@ Candidates candidates(const BondLaw& law, const Domain& domain, const Pause& pau
   return among;
 }
 
-/// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it does not.
+/// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it
+/// does not.
 void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, const Log& log) {
   const std::vector<Index> between = elements_between(among.position, among.radius, among.pairs, pause);
   const auto far = std::count_if(between.begin(), between.end(), [](Index k) { return k >= 0; });
@@ -75,20 +77,24 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
     among.pairs.resize(kept);
     return;
   }
-  log.warn(fmt::format("{}: {} of the {} bonds of family '{}' reach over an element that lies between the two, since elements overlap or 'gap' is wide: "
-                   "they add to its stiffness; neighbours=\"next\" leaves them out",
-                   law.at().where(), far, among.pairs.size(), *law.name));
+  log.warn(
+      fmt::format("{}: {} of the {} bonds of family '{}' reach over an element that lies between the two, since "
+                  "elements overlap or 'gap' is wide: they add to its stiffness; neighbours=\"next\" leaves them out",
+                  law.at().where(), far, among.pairs.size(), *law.name));
 }
 
 }  // namespace
 
-bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) { return !candidates(law, domain, pause).pairs.empty(); }
+bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) {
+  return !candidates(law, domain, pause).pairs.empty();
+}
 
-std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause, const Log& log) {
+std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause,
+                                                   const Log& log) {
   Candidates among = candidates(law, domain, pause);
   if (among.pairs.empty())
-    refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = {} of the sum of "
-                                 "their radii between them; a larger 'gap' or another set may help",
+    refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = "
+                                 "{} of the sum of their radii between them; a larger 'gap' or another set may help",
                                  *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
   mind_far_ones(law, among, pause, log);
   std::vector<std::pair<Index, Index>> pairs;

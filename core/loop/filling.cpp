@@ -35,7 +35,9 @@ void order_elements(RunState& state) {
 // One degree of freedom of an element has one master.
 void check_constraints(const Domain& domain, const Stage& stage, std::span<const Constraint> constraints) {
   std::map<std::pair<Index, int>, const Constraint*> taken;
-  const auto load_of = [&](const Constraint& c) { return std::find_if(stage.loads.begin(), stage.loads.end(), [&](const Load* l) { return l->id() == c.by; }); };
+  const auto load_of = [&](const Constraint& c) {
+    return std::find_if(stage.loads.begin(), stage.loads.end(), [&](const Load* l) { return l->id() == c.by; });
+  };
   for (const Constraint& c : constraints) {
     const auto by = load_of(c);
     check_constraint(c, domain, by != stage.loads.end() ? static_cast<const Plugin&>(**by) : stage.mover());
@@ -43,8 +45,8 @@ void check_constraints(const Domain& domain, const Stage& stage, std::span<const
       const auto [there, fresh] = taken.try_emplace({row, c.axis}, &c);
       if (fresh) continue;
       static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
-      refuse((*by)->at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}", names[c.axis], c.set,
-                                      there->second->set, there->second->by));
+      refuse((*by)->at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}",
+                                      names[c.axis], c.set, there->second->set, there->second->by));
     }
   }
 }
@@ -54,19 +56,21 @@ void foresee_families(const RunState& state, const RunOptions& options) {
   const auto& stages = state.scene.stages;
   for (std::size_t s = 1; s < stages.size(); ++s)
     for (const BondLaw* law : stages[s].laws)
-      if (state.scene.first_stage(*law) == s && !has_pairs(*law, state.domain(), [&] { pause_before_first_step(options); }))
-        options.log.warn(fmt::format("{}: family '{}' would have no bond if stage '{}' began now: no element of '{}' touches one of '{}' yet; if it stays so, "
-                                     "the run ends there",
-                                     law->at().where(), *law->name, stages[s].name, (*law->between)[0], (*law->between)[1]));
+      if (state.scene.first_stage(*law) == s &&
+          !has_pairs(*law, state.domain(), [&] { pause_before_first_step(options); }))
+        options.log.warn(
+            fmt::format("{}: family '{}' would have no bond if stage '{}' began now: no element of '{}' touches one of "
+                        "'{}' yet; if it stays so, the run ends there",
+                        law->at().where(), *law->name, stages[s].name, (*law->between)[0], (*law->between)[1]));
 }
 
 }  // namespace
 
 void pause_before_first_step(const RunOptions& options) {
   if (!options.is_interrupted()) return;
-  throw Interrupted(options.resume
-                        ? "interrupted before the first step; go on with: " + options.commands.go_on
-                        : "interrupted before the first step; nothing is saved yet, begin again with: " + options.commands.begin_again);
+  throw Interrupted(options.resume ? "interrupted before the first step; go on with: " + options.commands.go_on
+                                   : "interrupted before the first step; nothing is saved yet, begin again with: " +
+                                         options.commands.begin_again);
 }
 
 void fill(RunState& state, const RunOptions& options, std::vector<std::string>& reports) {
@@ -76,7 +80,8 @@ void fill(RunState& state, const RunOptions& options, std::vector<std::string>& 
                     .log = options.log,
                     .report =
                         [&](const std::string& json) {
-                          if (!bounded_json(json).is_object()) throw std::invalid_argument("its packing report is no JSON object: " + json.substr(0, 100));
+                          if (!bounded_json(json).is_object())
+                            throw std::invalid_argument("its packing report is no JSON object: " + json.substr(0, 100));
                           reports.push_back(json);
                         },
                     .pause = [&] { pause_before_first_step(options); },
@@ -88,11 +93,13 @@ void fill(RunState& state, const RunOptions& options, std::vector<std::string>& 
   }
   for (Filler* filler : scene.fillers) blaming(*filler, "conclude", [&] { filler->conclude(job); });
   if (state.domain().size() == 0)
-    throw DeckFailure(fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene.deck_path));
+    throw DeckFailure(
+        fmt::format("{}: error: the scene has no elements: no plugin of <fill> made any", scene.deck_path));
   order_elements(state);
   for (Filler* filler : scene.fillers)
     if (filler->after_filling()) run_filler(state, *filler, job);
-  for (std::size_t s = 0; s < scene.stages.size(); ++s) check_constraints(state.domain(), scene.stages[s], state.constraints[s]);
+  for (std::size_t s = 0; s < scene.stages.size(); ++s)
+    check_constraints(state.domain(), scene.stages[s], state.constraints[s]);
   foresee_families(state, options);
 }
 

@@ -9,8 +9,10 @@ namespace beadwork {
 
 namespace {
 
-// The time from `began` on at which what is driven has gone that far: it never turns back before, so bisection finds it.
-std::optional<Real> time_of_displacement(std::span<const Constraint> constraints, Real began, Real wanted, Real time_step) {
+// The time from `began` on at which what is driven has gone that far: it never turns back before, so bisection finds
+// it.
+std::optional<Real> time_of_displacement(std::span<const Constraint> constraints, Real began, Real wanted,
+                                         Real time_step) {
   Real late = time_step;
   while (driven_displacement(constraints, "", began, began + late) < wanted) {
     late *= 2;
@@ -33,7 +35,8 @@ std::optional<Real> steps_of(const Until& until, std::span<const Constraint> con
   if (!(time_step > 0)) return fewest;
   if (until.time()) note(std::ceil(*until.time() / time_step));
   if (until.displacement())
-    if (const auto time = time_of_displacement(constraints, began, *until.displacement(), time_step)) note(std::ceil(*time / time_step));
+    if (const auto time = time_of_displacement(constraints, began, *until.displacement(), time_step))
+      note(std::ceil(*time / time_step));
   return fewest;
 }
 
@@ -41,7 +44,11 @@ std::optional<Real> steps_of(const Until& until, std::span<const Constraint> con
 Headway headway_of(const Scene& scene, const Moment& moment, std::span<const Constraint> constraints) {
   const auto present = static_cast<std::size_t>(moment.stage);
   const Stage& stage = scene.stages[present];
-  Headway headway{fmt::format("stage '{}'", stage.name), fmt::format("step {}, time {:.4g} s, {} breaks", moment.step, moment.time, scene.domain->breaks().breaks.size()), {}, false};
+  Headway headway{
+      fmt::format("stage '{}'", stage.name),
+      fmt::format("step {}, time {:.4g} s, {} breaks", moment.step, moment.time, scene.domain->breaks().breaks.size()),
+      {},
+      false};
   if (scene.stages.size() > 1) headway.work += fmt::format(" ({} of {})", present + 1, scene.stages.size());
   Real all = static_cast<Real>(moment.stage_step);
   for (std::size_t s = present; s < scene.stages.size(); ++s) {

@@ -18,14 +18,22 @@ void FrameNow::add(const Moment& moment, const FramePlan& more) {
 }
 
 std::string FrameNow::json() const {
-  return json_text(nlohmann::json{{"step", step}, {"stage", stage}, {"of_one_stage", of_one_stage}, {"fields", plan.fields}, {"picture", plan.picture}, {"view", plan.view}});
+  return json_text(nlohmann::json{{"step", step},
+                                  {"stage", stage},
+                                  {"of_one_stage", of_one_stage},
+                                  {"fields", plan.fields},
+                                  {"picture", plan.picture},
+                                  {"view", plan.view}});
 }
 
 std::optional<FrameNow> FrameNow::of(const std::string& text) {
   try {
     const auto json = bounded_json(text);
-    return FrameNow{json.at("step").get<std::int64_t>(), json.at("stage").get<int>(), json.at("of_one_stage").get<bool>(),
-                    {json.at("fields").get<std::vector<std::string>>(), json.at("picture").get<bool>(), json.at("view").get<std::string>()}};
+    return FrameNow{json.at("step").get<std::int64_t>(),
+                    json.at("stage").get<int>(),
+                    json.at("of_one_stage").get<bool>(),
+                    {json.at("fields").get<std::vector<std::string>>(), json.at("picture").get<bool>(),
+                     json.at("view").get<std::string>()}};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

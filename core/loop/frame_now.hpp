@@ -1,6 +1,6 @@
 #pragma once
-// What is recorded as the frame of the present step. It is kept in checkpoints: what a kill has left may hold more, seen after the
-// checkpoint, and a resumed run makes it what it was.
+// What is recorded as the frame of the present step. It is kept in checkpoints: what a kill has left may hold more,
+// seen after the checkpoint, and a resumed run makes it what it was.
 
 #include <optional>
 #include <string>

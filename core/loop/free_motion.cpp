@@ -18,8 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr std::size_t most_named = 4;
-const Field start_field{"free-start", On::elements, Type::vec3, "m", "Where the element of a body that is free in some way stood when the stage began", ""};
-const Field body_field{"free-body", On::elements, Type::index, "1", "Which of the free bodies it belongs to, from 1 on; 0: none", ""};
+const Field start_field{"free-start",
+                        On::elements,
+                        Type::vec3,
+                        "m",
+                        "Where the element of a body that is free in some way stood when the stage began",
+                        ""};
+const Field body_field{
+    "free-body", On::elements, Type::index, "1", "Which of the free bodies it belongs to, from 1 on; 0: none", ""};
 
 /// What is known of each body while its supports are gathered.
 struct Gathered {
@@ -91,7 +97,9 @@ void support_mean(All& all, const Domain& domain, const Constraint& c, const std
   std::map<Index, Rigid> parts;
   for (const Index row : set) {
     const auto of = all.find(body[static_cast<std::size_t>(row)]);
-    if (of != all.end()) parts.try_emplace(of->first, Rigid::Zero()).first->second += felt(of->second, x[row], c.axis) / static_cast<Real>(set.size());
+    if (of != all.end())
+      parts.try_emplace(of->first, Rigid::Zero()).first->second +=
+          felt(of->second, x[row], c.axis) / static_cast<Real>(set.size());
   }
   if (parts.size() == 1) {
     all[parts.begin()->first].held += parts.begin()->second * parts.begin()->second.transpose();
@@ -113,7 +121,8 @@ Rows shared_rows(const Gathered& body, Index count) {
   return largest > 0 ? Rows(rows / largest) : rows;
 }
 
-// A shared support holds a body so far as no other can make up for it: where its motion is felt in a way in which that of no other is.
+// A shared support holds a body so far as no other can make up for it: where its motion is felt in a way in which that
+// of no other is.
 void hold_by_shared(All& all, Index count) {
   if (count == 0) return;
   std::map<Index, Rows> could;  // what each could make the supports feel, by what its own leave free
@@ -140,7 +149,8 @@ void require(bool whole) {
 
 }  // namespace
 
-FreeMotions FreeMotions::find(Domain& domain, std::span<const BondTable* const> tables, std::span<const Constraint> constraints, bool turning, std::int64_t step) {
+FreeMotions FreeMotions::find(Domain& domain, std::span<const BondTable* const> tables,
+                              std::span<const Constraint> constraints, bool turning, std::int64_t step) {
   FreeMotions found;
   const std::vector<Index> body = bodies(domain, tables, step);
   All all = members_of(body);
@@ -153,8 +163,10 @@ FreeMotions FreeMotions::find(Domain& domain, std::span<const BondTable* const> 
   hold_by_shared(all, means);
   std::vector<std::pair<const Gathered*, RigidModes>> free;
   for (const auto& entry : all)
-    if (RigidModes modes = free_modes(entry.second.held, entry.second.inertia); modes.cols() > 0) free.emplace_back(&entry.second, std::move(modes));
-  std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first->members.size() > b.first->members.size(); });
+    if (RigidModes modes = free_modes(entry.second.held, entry.second.inertia); modes.cols() > 0)
+      free.emplace_back(&entry.second, std::move(modes));
+  std::stable_sort(free.begin(), free.end(),
+                   [](const auto& a, const auto& b) { return a.first->members.size() > b.first->members.size(); });
   std::vector<std::vector<Index>> members;
   for (const auto& [of, modes] : free) {
     if (found.bodies_.size() == most_named) break;
@@ -180,15 +192,18 @@ void FreeMotions::follow(Domain& domain, const std::vector<std::vector<Index>>& 
 std::vector<std::string> FreeMotions::words() const {
   std::vector<std::string> lines;
   for (const Body& body : bodies_)
-    lines.push_back(fmt::format("a body of {} bonded elements is free {}: no load holds it so", body.elements,
-                                body.motions.size() == 6 ? "to move and turn any way" : "to " + join(body.motions, ", to ")));
+    lines.push_back(
+        fmt::format("a body of {} bonded elements is free {}: no load holds it so", body.elements,
+                    body.motions.size() == 6 ? "to move and turn any way" : "to " + join(body.motions, ", to ")));
   if (others_ > 0) lines.push_back(fmt::format("so are {} smaller bodies, each in some way", others_));
   return lines;
 }
 
-// Of each body the free part of the rigid motion that fits best, by mass, what its members have moved: what it stretches or swells is none.
+// Of each body the free part of the rigid motion that fits best, by mass, what its members have moved: what it
+// stretches or swells is none.
 std::vector<Rigid> FreeMotions::motions(const Domain& domain) const {
-  const auto x = domain.elements().column("position").view<Vec3>(), start = domain.elements().column(start_field.name).view<Vec3>();
+  const auto x = domain.elements().column("position").view<Vec3>(),
+             start = domain.elements().column(start_field.name).view<Vec3>();
   const auto mass = domain.elements().column("mass").view<Real>();
   const auto which = domain.elements().column(body_field.name).view<Index>();
   std::vector<RigidMatrix> square(bodies_.size(), RigidMatrix::Zero());
@@ -219,7 +234,8 @@ Real FreeMotions::moved(const Domain& domain) const {
   for (Index row = 0; row < domain.size(); ++row) {
     if (which[row] == 0) continue;
     const auto k = static_cast<std::size_t>(which[row] - 1);
-    farthest = std::max(farthest, (rigid_at(start[row] - bodies_[k].centre, bodies_[k].length) * motion[k]).squaredNorm());
+    farthest =
+        std::max(farthest, (rigid_at(start[row] - bodies_[k].centre, bodies_[k].length) * motion[k]).squaredNorm());
   }
   return std::sqrt(farthest);
 }
@@ -234,8 +250,13 @@ Json FreeMotions::saved() const {
   Json all = Json::array();
   for (const Body& body : bodies_) {
     Json modes = Json::array();
-    for (Eigen::Index k = 0; k < body.modes.cols(); ++k) modes.push_back(std::vector<Real>(body.modes.col(k).begin(), body.modes.col(k).end()));
-    all.push_back({{"elements", body.elements}, {"motions", body.motions}, {"modes", modes}, {"centre", {body.centre[0], body.centre[1], body.centre[2]}}, {"length", body.length}});
+    for (Eigen::Index k = 0; k < body.modes.cols(); ++k)
+      modes.push_back(std::vector<Real>(body.modes.col(k).begin(), body.modes.col(k).end()));
+    all.push_back({{"elements", body.elements},
+                   {"motions", body.motions},
+                   {"modes", modes},
+                   {"centre", {body.centre[0], body.centre[1], body.centre[2]}},
+                   {"length", body.length}});
   }
   return {{"bodies", all}, {"others", others_}};
 }
@@ -247,7 +268,8 @@ std::optional<FreeMotions> FreeMotions::restored(const Json& saved, const Domain
   if (!found.any()) return found;
   domain.elements().column(start_field.name).view<Vec3>();
   const auto which = domain.elements().column(body_field.name).view<Index>();
-  for (Index row = 0; row < domain.size(); ++row) require(which[row] >= 0 && which[row] <= static_cast<Index>(found.bodies_.size()));
+  for (Index row = 0; row < domain.size(); ++row)
+    require(which[row] >= 0 && which[row] <= static_cast<Index>(found.bodies_.size()));
   return found;
 } catch (const std::exception&) {
   return std::nullopt;
@@ -260,8 +282,10 @@ FreeMotions::Body FreeMotions::body_of(const Json& saved) {
   require(saved.at("modes").size() <= 6);
   body.modes.resize(6, static_cast<Eigen::Index>(saved.at("modes").size()));
   for (Eigen::Index k = 0; k < body.modes.cols(); ++k)
-    for (Eigen::Index r = 0; r < 6; ++r) body.modes(r, k) = saved.at("modes").at(static_cast<std::size_t>(k)).at(static_cast<std::size_t>(r)).get<Real>();
-  for (int axis = 0; axis < 3; ++axis) body.centre[axis] = saved.at("centre").at(static_cast<std::size_t>(axis)).get<Real>();
+    for (Eigen::Index r = 0; r < 6; ++r)
+      body.modes(r, k) = saved.at("modes").at(static_cast<std::size_t>(k)).at(static_cast<std::size_t>(r)).get<Real>();
+  for (int axis = 0; axis < 3; ++axis)
+    body.centre[axis] = saved.at("centre").at(static_cast<std::size_t>(axis)).get<Real>();
   body.length = saved.at("length").get<Real>();
   require(body.length > 0);
   return body;

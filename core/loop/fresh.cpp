@@ -11,7 +11,8 @@ namespace {
 
 bool reads_rates_itself(const Plugin& plugin) {
   return std::any_of(plugin.uses().begin(), plugin.uses().end(), [](const FieldUse* use) {
-    return use->wanted() && use->verb() == Verb::reads && (use->field().name == "velocity" || use->field().name == "spin");
+    return use->wanted() && use->verb() == Verb::reads &&
+           (use->field().name == "velocity" || use->field().name == "spin");
   });
 }
 
@@ -30,7 +31,8 @@ Fresh::Fresh(RunState& state, Offered& offered, Forces& forces, Workings& workin
 
 bool Fresh::reads_rates(const Plugin& plugin) const {
   const Scene& scene = state_.scene;
-  return reads_rates_itself(plugin) || std::any_of(scene.derived.begin(), scene.derived.end(), [&](const Derived* derived) {
+  return reads_rates_itself(plugin) ||
+         std::any_of(scene.derived.begin(), scene.derived.end(), [&](const Derived* derived) {
            return scene.readers_of(*derived).contains(&plugin) && reads_rates_itself(*derived);
          });
 }
@@ -62,7 +64,8 @@ void Fresh::everything() {
 }
 
 void Fresh::derive_all() {
-  for (Derived* derived : state_.scene.derived) blaming(*derived, state_.moment, [&] { derived->derive(state_.domain()); });
+  for (Derived* derived : state_.scene.derived)
+    blaming(*derived, state_.moment, [&] { derived->derive(state_.domain()); });
 }
 
 // Each once for all who read it.
@@ -86,7 +89,8 @@ Verdict Fresh::judge(Failure& failure) {
   Verdict verdict = blaming(failure, state_.moment, [&] { return offered_.judge(failure, state_.domain()); });
   const Index bonds = state_.domain().find_family(failure.family())->size();
   check_rows(verdict.fallen, bonds, "bonds that break", failure, state_.moment);
-  if (verdict.row >= 0) check_rows({&verdict.row, 1}, bonds, "bonds with the largest utilisation", failure, state_.moment);
+  if (verdict.row >= 0)
+    check_rows({&verdict.row, 1}, bonds, "bonds with the largest utilisation", failure, state_.moment);
   return verdict;
 }
 

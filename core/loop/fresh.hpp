@@ -1,6 +1,6 @@
 #pragma once
-// Brings up to date what a reader is about to see: velocities at the end of the step, derived fields, and what laws and criteria offer of
-// each bond. What nobody reads is not found.
+// Brings up to date what a reader is about to see: velocities at the end of the step, derived fields, and what laws and
+// criteria offer of each bond. What nobody reads is not found.
 
 #include <set>
 
@@ -42,8 +42,9 @@ class Fresh {
   Offered& offered_;
   Forces& forces_;
   Workings& workings_;
-  std::set<const Plugin*> rate_readers_;  ///< loads and criteria that read velocities or spins, by themselves or in derived fields
-  std::set<const Derived*> derived_;      ///< fields that stand for the present state
+  std::set<const Plugin*>
+      rate_readers_;  ///< loads and criteria that read velocities or spins, by themselves or in derived fields
+  std::set<const Derived*> derived_;  ///< fields that stand for the present state
 };
 
 }  // namespace beadwork

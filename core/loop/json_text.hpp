@@ -23,8 +23,8 @@ Json safe_json(const Json& json) {
   return safe;
 }
 
-/// Whatever the strings hold (a word of a plugin, a line of a file): what is no UTF-8 becomes U+FFFD, instead of an exception that hides
-/// what was to be told.
+/// Whatever the strings hold (a word of a plugin, a line of a file): what is no UTF-8 becomes U+FFFD, instead of an
+/// exception that hides what was to be told.
 template <class Json>
 std::string json_text(const Json& json, int indent = -1) {
   return safe_json(json).dump(indent);

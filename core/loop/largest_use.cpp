@@ -26,15 +26,20 @@ void LargestUse::note(const Verdict& verdict, const Domain& domain, const BondTa
   const Index i = table.first()[verdict.row], j = table.second()[verdict.row];
   const Vec3 middle = 0.5 * (at[i] + at[j]);
   value = verdict.largest, time = moment.time, step = static_cast<Real>(moment.step);
-  bond = static_cast<Real>(table.id()[verdict.row]), first = static_cast<Real>(id[i]), second = static_cast<Real>(id[j]);
+  bond = static_cast<Real>(table.id()[verdict.row]), first = static_cast<Real>(id[i]),
+  second = static_cast<Real>(id[j]);
   x = middle[0], y = middle[1], z = middle[2];
 }
 
 std::string sentence(const LargestUse& use, const Failure& failure) {
-  const std::string of = fmt::format("<{} of=\"{}\"> ({})", failure.tag(), failure.family(), blaming(failure, "mode", [&] { return failure.mode(); }));
+  const std::string of = fmt::format("<{} of=\"{}\"> ({})", failure.tag(), failure.family(),
+                                     blaming(failure, "mode", [&] { return failure.mode(); }));
   if (!use.is_there()) return fmt::format("{} has found no bond under load", of);
-  return fmt::format("largest utilisation of {}: {:.4g} at step {:.0f} ({:.4g} s), bond {:.0f} between elements {:.0f} and {:.0f}, at ({:.4g}, {:.4g}, {:.4g}) m", of,
-                     Real(use.value), Real(use.step), Real(use.time), Real(use.bond), Real(use.first), Real(use.second), Real(use.x), Real(use.y), Real(use.z));
+  return fmt::format(
+      "largest utilisation of {}: {:.4g} at step {:.0f} ({:.4g} s), bond {:.0f} between elements {:.0f} and {:.0f}, at "
+      "({:.4g}, {:.4g}, {:.4g}) m",
+      of, Real(use.value), Real(use.step), Real(use.time), Real(use.bond), Real(use.first), Real(use.second),
+      Real(use.x), Real(use.y), Real(use.z));
 }
 
 }  // namespace beadwork

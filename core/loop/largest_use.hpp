@@ -1,5 +1,6 @@
 #pragma once
-// The largest utilisation that a criterion has found so far, and where: it tells how near to breaking a run came that broke nothing.
+// The largest utilisation that a criterion has found so far, and where: it tells how near to breaking a run came that
+// broke nothing.
 
 #include <string>
 
@@ -19,11 +20,13 @@ struct LargestUse {
   /// Takes its row in the list of criteria.
   LargestUse(Table& criteria, Index row);
   bool is_there() const { return bond >= 0; }
-  /// Takes what a criterion has found, where it is larger. To be called before anything breaks of it, while rows stand as they were judged.
+  /// Takes what a criterion has found, where it is larger. To be called before anything breaks of it, while rows stand
+  /// as they were judged.
   void note(const Verdict& verdict, const Domain& domain, const BondTable& table, const Moment& moment);
 };
 
-/// "largest utilisation of <bond-stress of="resin"> (axial): 0.873 at step 580 (1.16e-04 s), bond 7 between elements 3 and 4, at ..."
+/// "largest utilisation of <bond-stress of="resin"> (axial): 0.873 at step 580 (1.16e-04 s), bond 7 between elements 3
+/// and 4, at ..."
 std::string sentence(const LargestUse& use, const Failure& failure);
 
 }  // namespace beadwork

@@ -1,6 +1,6 @@
 #pragma once
-// Holds the energy balance of a run against what was brought to it: energy from nothing is noticed, whatever the time step.
-// docs/theory/time-step.md
+// Holds the energy balance of a run against what was brought to it: energy from nothing is noticed, whatever the time
+// step. docs/theory/time-step.md
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@ namespace beadwork {
 
 class Ledger {
  public:
-  /// Shares of what was brought, from which on energy from nothing is warned of, and from which on a run that gains more is stopped.
+  /// Shares of what was brought, from which on energy from nothing is warned of, and from which on a run that gains
+  /// more is stopped.
   static constexpr Real warned_from = 0.01, stopped_from = 1;
 
   enum class Verdict { balanced, gains, runs_away };
@@ -29,11 +30,12 @@ class Ledger {
         told_(scene, "ledger.told", "1", "1 once a gain has been told"),
         lost_at_breaks_(scene, "ledger.lost-at-breaks", "J", "Energy that breaks have lost by the size of the step") {}
 
-  /// Looks at the balance cost as much as some steps: all hundred steps at first, where most mistakes show, then all thousand.
+  /// Looks at the balance cost as much as some steps: all hundred steps at first, where most mistakes show, then all
+  /// thousand.
   static bool due(std::int64_t steps) { return steps % (steps <= 1000 ? 100 : 1000) == 0; }
 
-  /// After every step: work so far, and the energy that was there without any [J]. The largest counts: what a cycle has taken
-  /// back was brought nevertheless.
+  /// After every step: work so far, and the energy that was there without any [J]. The largest counts: what a cycle has
+  /// taken back was brought nevertheless.
   void note_work(Real work, Real initial) { brought_ = std::max<Real>(brought_, std::abs(work) + std::abs(initial)); }
 
   /// `swing`: of the scheme (Mover::swing); `noise`: no more than round-off [J].
@@ -49,15 +51,20 @@ class Ledger {
     return gained_ > stopped_from * brought_ + noise && gained_ > before ? Verdict::runs_away : Verdict::gains;
   }
 
-  /// Where something breaks, the forces jump, and the scheme keeps the energy less what follows from them (Mover::shadow_energy): what a jump
-  /// adds to that is lost to the balance, by the size of the step. A jump down is no gain that could be excused: before it, what the scheme
-  /// does not keep may have grown out of nothing. docs/theory/bond-failure.md
-  void note_break(Real shadow_before, Real shadow_after) { lost_at_breaks_ += std::max(Real(0), shadow_after - shadow_before); }
+  /// Where something breaks, the forces jump, and the scheme keeps the energy less what follows from them
+  /// (Mover::shadow_energy): what a jump adds to that is lost to the balance, by the size of the step. A jump down is
+  /// no gain that could be excused: before it, what the scheme does not keep may have grown out of nothing.
+  /// docs/theory/bond-failure.md
+  void note_break(Real shadow_before, Real shadow_after) {
+    lost_at_breaks_ += std::max(Real(0), shadow_after - shadow_before);
+  }
 
   Real lost_at_breaks() const { return lost_at_breaks_; }  ///< [J]
-  Real brought() const { return brought_; }      ///< largest so far: |work| + |what was there| [J]
-  Real gained() const { return gained_; }        ///< at the last look, beyond that and beyond the swing [J]
-  Real deviation() const { return deviation_; }  ///< largest so far by which the balance failed to close, either way [J]
+  Real brought() const { return brought_; }                ///< largest so far: |work| + |what was there| [J]
+  Real gained() const { return gained_; }                  ///< at the last look, beyond that and beyond the swing [J]
+  Real deviation() const {
+    return deviation_;
+  }  ///< largest so far by which the balance failed to close, either way [J]
 
   /// Whether it is to be told now that energy comes from nothing: once.
   bool tells() {

@@ -77,7 +77,9 @@ void Looks::tell_of_missed_moments(const std::string& instead) const {
     const Watcher& watcher = *now.watchers[w];
     if (std::any_of(later, stages.end(), [&](const Stage& stage) { return stage.watched_by(watcher); })) continue;
     for (std::size_t k = 0; k < now.marks[w].size(); ++k)
-      if (!came(watcher, k)) log_.warn(fmt::format("{}: 'at' did not come to {}: {} first", now.marks[w][k].at.where(), now.marks[w][k].words(), instead));
+      if (!came(watcher, k))
+        log_.warn(fmt::format("{}: 'at' did not come to {}: {} first", now.marks[w][k].at.where(),
+                              now.marks[w][k].words(), instead));
   }
 }
 

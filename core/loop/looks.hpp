@@ -9,7 +9,8 @@ namespace beadwork {
 /// What a watcher sees, and where it writes.
 class Seen final : public Sight {
  public:
-  Seen(const RunState& state, const Balance& balance, Record& record) : state_(state), balance_(balance), record_(record) {}
+  Seen(const RunState& state, const Balance& balance, Record& record)
+      : state_(state), balance_(balance), record_(record) {}
   const Domain& domain() const override { return state_.domain(); }
   const Moment& moment() const override { return state_.moment; }
   std::span<const Constraint> constraints() const override { return state_.held(); }

@@ -23,7 +23,8 @@ Real largest(std::span<const Constraint> constraints, const std::string& set, co
 }  // namespace
 
 Real driven_displacement(std::span<const Constraint> constraints, const std::string& set, Real from, Real to) {
-  return largest(constraints, set, [&](const Constraint& c) { return c.at(to).displacement - c.at(from).displacement; });
+  return largest(constraints, set,
+                 [&](const Constraint& c) { return c.at(to).displacement - c.at(from).displacement; });
 }
 
 Real driven_force(std::span<const Constraint> constraints, const std::string& set) {
@@ -38,8 +39,9 @@ std::optional<Real> reach_of(std::span<const Constraint> constraints, const std:
 }
 
 const std::vector<Variable>& Mark::variables() {
-  static const std::vector<Variable> three{
-      {"time", find_unit("s")->dimension}, {"step", find_unit("1")->dimension}, {"displacement", find_unit("m")->dimension}};
+  static const std::vector<Variable> three{{"time", find_unit("s")->dimension},
+                                           {"step", find_unit("1")->dimension},
+                                           {"displacement", find_unit("m")->dimension}};
   return three;
 }
 
@@ -50,19 +52,22 @@ std::optional<Mark> Mark::of(const Expression& quantity, const std::string& attr
   for (std::size_t v = 0; v < variables().size(); ++v) {
     if (!(quantity.dimension() == variables()[v].dimension)) continue;
     if (static_cast<What>(v) == What::steps && value != std::floor(value)) {
-      complaints.error(at, fmt::format("'{}' wants a whole number of steps, or a time or displacement with its unit, got \"{}\"", attribute, text));
+      complaints.error(
+          at, fmt::format("'{}' wants a whole number of steps, or a time or displacement with its unit, got \"{}\"",
+                          attribute, text));
       return std::nullopt;
     }
     if (value >= 0) return Mark{static_cast<What>(v), value, text, at};
     complaints.error(at, fmt::format("'{}' must be >= 0, got \"{}\"", attribute, text));
     return std::nullopt;
   }
-  complaints.error(at, fmt::format("'{}' wants {}, got \"{}\" which is {}", attribute, wanted, text, quantity.dimension().name()));
+  complaints.error(
+      at, fmt::format("'{}' wants {}, got \"{}\" which is {}", attribute, wanted, text, quantity.dimension().name()));
   return std::nullopt;
 }
 
-std::vector<Mark> Mark::list(const std::string& text, const std::string& attribute, const Location& at, const Scope& scope,
-                             Complaints& complaints) {
+std::vector<Mark> Mark::list(const std::string& text, const std::string& attribute, const Location& at,
+                             const Scope& scope, Complaints& complaints) {
   constexpr std::size_t most = 10'000;
   std::vector<Mark> marks;
   const std::vector<std::string> pieces = split(text, ',');
@@ -82,7 +87,8 @@ std::vector<Mark> Mark::list(const std::string& text, const std::string& attribu
     if (word == "end") continue;  // every watcher looks at the end
     const auto quantity = Expression::compile(word, place, scope, {}, complaints);
     if (!quantity) continue;
-    if (const auto mark = of(*quantity, attribute, "a time, a number of steps or a displacement", word, place, complaints))
+    if (const auto mark =
+            of(*quantity, attribute, "a time, a number of steps or a displacement", word, place, complaints))
       marks.push_back(*mark);
   }
   return marks;
@@ -95,7 +101,8 @@ std::string Mark::si() const {
 
 std::string Mark::words() const {
   const std::vector<std::string> parts = split_words(text);
-  const bool is_plain = parts.size() <= 2 && parse_number(parts.front()) && find_unit(parts.size() == 1 ? "1" : parts.back());
+  const bool is_plain =
+      parts.size() <= 2 && parse_number(parts.front()) && find_unit(parts.size() == 1 ? "1" : parts.back());
   const std::string amount = is_plain ? text : fmt::format("{} = {}", text, si());
   if (what == What::steps) return amount + (value == 1 ? " step" : " steps");
   return amount + (what == What::time ? " of time" : " of displacement");
@@ -107,7 +114,8 @@ std::string Mark::why_never(std::span<const Constraint> constraints) const {
   if (!reach) return "waits for a displacement, but nothing in <load> is pulled";
   constexpr Real rounding = 1e-9;
   if (*reach >= (1 - rounding) * value) return "";
-  return fmt::format("waits for a displacement of {}, but what is pulled moves {} at most", text, format_quantity(*reach, "m"));
+  return fmt::format("waits for a displacement of {}, but what is pulled moves {} at most", text,
+                     format_quantity(*reach, "m"));
 }
 
 bool Mark::reached(const Moment& moment, std::span<const Constraint> constraints) const {

@@ -33,9 +33,10 @@ struct Mark {
   /// The complaint says: 'attribute' wants `wanted`, got "text".
   static std::optional<Mark> of(const Expression& quantity, const std::string& attribute, const std::string& wanted,
                                 const std::string& text, const Location& at, Complaints& complaints);
-  /// "0.3 mm, 1 ms, 5000, end": what can be read; of the rest it is complained. The end needs no mark: every watcher looks then.
-  static std::vector<Mark> list(const std::string& text, const std::string& attribute, const Location& at, const Scope& scope,
-                                Complaints& complaints);
+  /// "0.3 mm, 1 ms, 5000, end": what can be read; of the rest it is complained. The end needs no mark: every watcher
+  /// looks then.
+  static std::vector<Mark> list(const std::string& text, const std::string& attribute, const Location& at,
+                                const Scope& scope, Complaints& complaints);
   bool reached(const Moment& moment, std::span<const Constraint> constraints) const;
   std::string si() const;     ///< "0.0003 m", as any deck may give it
   std::string words() const;  ///< what is reached: "0.3 mm of displacement", "5000 steps"

@@ -13,7 +13,8 @@ Offered::Offered(const Scene& scene) : scene_(scene) {
       if (!table) continue;
       const Column* column = table->rows().find(use->field().name);
       auto& columns = columns_[table];
-      if (column && !column->kept() && std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
+      if (column && !column->kept() && std::find(columns.begin(), columns.end(), column) == columns.end())
+        columns.push_back(column);
     }
 }
 
@@ -47,8 +48,9 @@ void Offered::clear(const BondTable& table, Index row) const {
 void Offered::clear(const Column& column, Index begin, Index end) const {
   const Type type = column.field().type;
   for (int c = 0; c < components(type); ++c)
-    std::memset(column.base() + static_cast<std::size_t>(c) * column.plane() + static_cast<std::size_t>(begin) * column.stride(), 0,
-                static_cast<std::size_t>(end - begin) * component_bytes(type));
+    std::memset(column.base() + static_cast<std::size_t>(c) * column.plane() +
+                    static_cast<std::size_t>(begin) * column.stride(),
+                0, static_cast<std::size_t>(end - begin) * component_bytes(type));
 }
 
 LoadsAside::LoadsAside(const Domain& domain) {

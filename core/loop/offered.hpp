@@ -1,7 +1,7 @@
 #pragma once
-// What bond laws and criteria offer of each bond: axial force, moments, opening, utilisation. It is found for the steps in which
-// somebody reads it, and is then that of the present state. A bond that is broken has nothing, nor has one whose law or criterion
-// does not stand in the stage.
+// What bond laws and criteria offer of each bond: axial force, moments, opening, utilisation. It is found for the steps
+// in which somebody reads it, and is then that of the present state. A bond that is broken has nothing, nor has one
+// whose law or criterion does not stand in the stage.
 
 #include <map>
 #include <set>

@@ -9,8 +9,8 @@ namespace beadwork {
 
 namespace {
 
-constexpr Real loaded_from = 0.1;    // of the largest load, or of the largest stored energy
-constexpr Real fewest_steps = 50;    // whose mean force tells swinging from carrying
+constexpr Real loaded_from = 0.1;  // of the largest load, or of the largest stored energy
+constexpr Real fewest_steps = 50;  // whose mean force tells swinging from carrying
 
 Real share(Real part, Real whole) { return whole > 0 ? part / whole : 0; }
 
@@ -23,7 +23,9 @@ class Judge {
     verdict_.remarks.push_back(fmt::format("{} is {:.2g} % (good: up to {:.2g} %)", what, 100 * figure, 100 * good));
   }
   void remark(const std::string& line) { verdict_.remarks.push_back(line); }
-  QualityVerdict verdict(const std::string& at_best) { return worded(worst_ == 2 ? "poor" : worst_ == 1 ? "fair" : at_best); }
+  QualityVerdict verdict(const std::string& at_best) {
+    return worded(worst_ == 2 ? "poor" : worst_ == 1 ? "fair" : at_best);
+  }
   QualityVerdict verdict_of_the_unseen() { return worded(worst_ == 2 ? "poor" : "not judged"); }
 
  private:
@@ -40,15 +42,18 @@ class Judge {
 
 WorstLoaded::WorstLoaded(Domain& domain, const std::string& name, const std::string& unit)
     : none_(domain.scene(), "quality." + name + ".none", "1", "1 as long as no look was at anything stored"),
-      top_(domain.scene(), "quality." + name + ".top", "1", "Highest class of stored energy, a quarter of a decade each") {
+      top_(domain.scene(), "quality." + name + ".top", "1",
+           "Highest class of stored energy, a quarter of a decade each") {
   Table& classes = domain.list("quality");
   classes.resize(static_cast<Index>(kept));
   for (std::size_t k = 0; k < kept; ++k)
-    worst_[k].stand_in(classes, name, unit, "Largest of a figure over looks of a class of stored energy", static_cast<Index>(k));
+    worst_[k].stand_in(classes, name, unit, "Largest of a figure over looks of a class of stored energy",
+                       static_cast<Index>(k));
   none_ = 1;
 }
 
-Quality::Quality(Domain& domain, std::size_t forces) : sound_kinetic_(domain, "sound-kinetic", "1"), sound_imbalance_(domain, "sound-imbalance", "N") {
+Quality::Quality(Domain& domain, std::size_t forces)
+    : sound_kinetic_(domain, "sound-kinetic", "1"), sound_imbalance_(domain, "sound-imbalance", "N") {
   const auto keep = [&](Kept& number, const char* name, const char* unit, const char* doc) {
     number.stand_in(domain.scene(), std::string("quality.") + name, unit, doc);
   };
@@ -64,7 +69,8 @@ Quality::Quality(Domain& domain, std::size_t forces) : sound_kinetic_(domain, "s
   keep(largest_stored_, "largest-stored", "J", "Largest stored energy so far");
   keep(sound_load_, "sound-load", "N", "Largest prescribed force until something breaks");
   keep(cracking_kinetic_, "cracking-kinetic", "1", "Largest kinetic over stored energy while it cracks");
-  keep(cracking_imbalance_, "cracking-imbalance", "1", "Largest sum of prescribed forces over the largest of them while it cracks");
+  keep(cracking_imbalance_, "cracking-imbalance", "1",
+       "Largest sum of prescribed forces over the largest of them while it cracks");
   keep(free_motion_, "free-motion", "m", "Farthest that something moved as nothing holds it");
   keep(prescribed_, "prescribed", "m", "Farthest prescribed displacement till then");
   keep(flown_, "flown", "J", "Largest kinetic energy that was given");
@@ -72,7 +78,8 @@ Quality::Quality(Domain& domain, std::size_t forces) : sound_kinetic_(domain, "s
   Table& list = domain.list("prescribed-forces");
   list.resize(static_cast<Index>(forces));
   follow(forces);
-  for (std::size_t k = 0; k < forces; ++k) sums_[k].stand_in(list, "sum", "N", "Sum over steps of a prescribed force", static_cast<Index>(k));
+  for (std::size_t k = 0; k < forces; ++k)
+    sums_[k].stand_in(list, "sum", "N", "Sum over steps of a prescribed force", static_cast<Index>(k));
 }
 
 void Quality::look(const QualityLook& seen) {
@@ -95,7 +102,10 @@ void Quality::look_sound(const QualityLook& seen) {
   sound_load_ = std::max<Real>(sound_load_, seen.load);
   sound_kinetic_.note(seen.stored, share(seen.kinetic, seen.stored));
   sound_imbalance_.note(seen.stored, seen.imbalance);
-  at_rest_ = seen.stored > 0 && seen.kinetic <= quality_limits::kinetic * seen.stored && seen.imbalance <= quality_limits::imbalance * seen.load ? 1 : 0;
+  at_rest_ = seen.stored > 0 && seen.kinetic <= quality_limits::kinetic * seen.stored &&
+                     seen.imbalance <= quality_limits::imbalance * seen.load
+                 ? 1
+                 : 0;
 }
 
 // A single moment of little load ends nothing, and what swings does not begin anew by its swings: they bring no energy.
@@ -131,7 +141,8 @@ Real Quality::stored_by_now() const { return std::max<Real>(largest_stored_, sto
 Quality::Cracking Quality::cracking() const {
   Cracking worst{cracking_kinetic_, cracking_imbalance_};
   if (waits_ == 0 || stored_ < loaded_from * stored_by_now()) return worst;
-  return {std::max(worst.kinetic, share(kinetic_, stored_)), std::max(worst.imbalance, share(imbalance_, largest_load_))};
+  return {std::max(worst.kinetic, share(kinetic_, stored_)),
+          std::max(worst.imbalance, share(imbalance_, largest_load_))};
 }
 
 void Quality::tell(QualityFigures& figures, Real mean_radius) const {
@@ -150,22 +161,34 @@ QualityVerdict judged(const QualityFigures& f) {
   namespace limit = quality_limits;
   if (f.idle && !f.failed) return {"idle", {"no energy was brought to it: nothing to judge"}};
   Judge judge;
-  judge.hold(f.residual, limit::residual, limit::residual_poor, "the residual of the energy balance over the largest work");
-  judge.hold(f.lost_at_breaks, limit::lost_at_breaks, limit::lost_at_breaks_poor, "what breaks lost by the size of the step (lower 'safety') over the largest work");
+  judge.hold(f.residual, limit::residual, limit::residual_poor,
+             "the residual of the energy balance over the largest work");
+  judge.hold(f.lost_at_breaks, limit::lost_at_breaks, limit::lost_at_breaks_poor,
+             "what breaks lost by the size of the step (lower 'safety') over the largest work");
   if (f.dynamic && !f.failed) return judge.verdict("dynamic");
   // What is elastic forgets the way to its equilibrium.
   const Real far = std::numeric_limits<Real>::infinity();
-  judge.hold(f.kinetic, limit::kinetic, f.at_rest ? far : limit::kinetic_poor, "the largest kinetic over stored energy, before anything breaks,");
-  judge.hold(f.kinetic_cracking, limit::kinetic_cracking, 5 * limit::kinetic_poor, "the largest kinetic over stored energy while it cracks");
-  judge.hold(f.imbalance, limit::imbalance, f.at_rest ? far : limit::imbalance_poor, "the sum of the prescribed forces over the largest, before anything breaks,");
-  judge.hold(f.imbalance_cracking, limit::imbalance_cracking, 5 * limit::imbalance_poor, "the sum of the prescribed forces over the largest while it cracks");
-  judge.hold(f.free_motion_share, limit::free_motion, limit::free_motion_poor, fmt::format("a motion that nothing holds, {:.3g} m, over the prescribed one", f.free_motion));
+  judge.hold(f.kinetic, limit::kinetic, f.at_rest ? far : limit::kinetic_poor,
+             "the largest kinetic over stored energy, before anything breaks,");
+  judge.hold(f.kinetic_cracking, limit::kinetic_cracking, 5 * limit::kinetic_poor,
+             "the largest kinetic over stored energy while it cracks");
+  judge.hold(f.imbalance, limit::imbalance, f.at_rest ? far : limit::imbalance_poor,
+             "the sum of the prescribed forces over the largest, before anything breaks,");
+  judge.hold(f.imbalance_cracking, limit::imbalance_cracking, 5 * limit::imbalance_poor,
+             "the sum of the prescribed forces over the largest while it cracks");
+  judge.hold(f.free_motion_share, limit::free_motion, limit::free_motion_poor,
+             fmt::format("a motion that nothing holds, {:.3g} m, over the prescribed one", f.free_motion));
   if (f.at_rest && (f.kinetic > limit::kinetic || f.imbalance > limit::imbalance))
     judge.remark("it came to rest: what is read at the end is in equilibrium, what is read on the way is not");
   else if (f.kinetic > limit::kinetic_waves && f.imbalance > limit::imbalance_waves)
-    judge.remark("that much of both before anything breaks looks like waves: as a slow test it is none, as a test of waves it is to be judged by their theory");
+    judge.remark(
+        "that much of both before anything breaks looks like waves: as a slow test it is none, as a test of waves it "
+        "is to be judged by their theory");
   if (!f.unseen && !f.failed) return judge.verdict("good");
-  judge.remark(f.failed ? "the run failed, and what came last was not looked at" : "no look found it loaded before something broke or the run ended: whether it was slow enough is not known");
+  judge.remark(
+      f.failed
+          ? "the run failed, and what came last was not looked at"
+          : "no look found it loaded before something broke or the run ended: whether it was slow enough is not known");
   return judge.verdict_of_the_unseen();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// How good a run is, by figures that its user would otherwise have to find in curves: whether the balance closes, whether it was slow
+// How good a run is, by figures that its user would otherwise have to find in curves: whether the balance closes,
+// whether it was slow
 // enough, whether what is prescribed is in equilibrium, and whether something rolled away.   docs/theory/quasi-static.md
 
 #include <algorithm>
@@ -24,33 +25,39 @@ struct QualityLook {
 
 /// The figures; a share that nothing stands for is not a number.
 struct QualityFigures {
-  Real residual = 0;            ///< largest by which the balance failed to close, over the largest energy brought
-  Real kinetic = 0;             ///< largest kinetic over stored energy at one look while loaded, until something breaks
-  Real kinetic_cracking = 0;    ///< and from then on
-  Real imbalance = 0;           ///< largest sum of prescribed forces while loaded over the largest of them, until something breaks
+  Real residual = 0;          ///< largest by which the balance failed to close, over the largest energy brought
+  Real kinetic = 0;           ///< largest kinetic over stored energy at one look while loaded, until something breaks
+  Real kinetic_cracking = 0;  ///< and from then on
+  Real imbalance =
+      0;  ///< largest sum of prescribed forces while loaded over the largest of them, until something breaks
   Real imbalance_cracking = 0;  ///< and from then on
   Real free_motion = 0;         ///< farthest that something undamaged moved as nothing holds it [m]
-  Real free_motion_share = 0;   ///< over the farthest prescribed displacement till then, or over the mean radius where there is none
-  Real lost_at_breaks = 0;      ///< energy that breaks lost by the size of the step, over the largest energy brought
-  bool dynamic = false;         ///< the deck prescribes nothing, or gives velocities: quasi-static limits do not apply
-  bool at_rest = false;         ///< nothing has broken, and the last look found it in equilibrium
-  bool unseen = false;          ///< no look found it loaded before something broke or the end
-  bool idle = false;            ///< no energy was brought
-  bool failed = false;          ///< the run was stopped by its physics, or by a plugin
+  Real free_motion_share =
+      0;  ///< over the farthest prescribed displacement till then, or over the mean radius where there is none
+  Real lost_at_breaks = 0;  ///< energy that breaks lost by the size of the step, over the largest energy brought
+  bool dynamic = false;     ///< the deck prescribes nothing, or gives velocities: quasi-static limits do not apply
+  bool at_rest = false;     ///< nothing has broken, and the last look found it in equilibrium
+  bool unseen = false;      ///< no look found it loaded before something broke or the end
+  bool idle = false;        ///< no energy was brought
+  bool failed = false;      ///< the run was stopped by its physics, or by a plugin
 };
 
 /// What the figures amount to.
 struct QualityVerdict {
-  std::string word;  ///< good, fair, poor; dynamic where only the balance counts; not judged where there was nothing to see; idle
+  std::string
+      /// good, fair, poor; dynamic where only the balance counts; not judged where there was nothing to see; idle
+      word;
   std::vector<std::string> remarks;
 };
 
 namespace quality_limits {
 /// The balance closes: 1e-3 is what the scheme itself leaves at usual steps; 2e-2 is beyond any use.
 inline constexpr Real residual = 1e-3, residual_poor = 2e-2;
-/// Quasi-static: explicit codes commonly ask for 5 to 10 %; a strength that is to be right within a percent asks for 1 % while nothing breaks.
+/// Quasi-static: explicit codes commonly ask for 5 to 10 %; a strength that is to be right within a percent asks for 1
+/// % while nothing breaks.
 inline constexpr Real kinetic = 0.01, kinetic_cracking = 0.05, kinetic_poor = 0.1;
-/// What the size of the step takes from the motion that breaks set free is like a damping: as much as may fly while it cracks.
+/// What the size of the step takes from the motion that breaks set free is like a damping: as much as may fly while it
+/// cracks.
 inline constexpr Real lost_at_breaks = kinetic_cracking, lost_at_breaks_poor = 0.5;
 /// Forces at both ends tell one and the same load.
 inline constexpr Real imbalance = 0.02, imbalance_cracking = 0.05, imbalance_poor = 0.1;
@@ -60,8 +67,9 @@ inline constexpr Real kinetic_waves = 0.2, imbalance_waves = 0.3;
 inline constexpr Real free_motion = 0.05, free_motion_poor = 0.5;
 }  // namespace quality_limits
 
-/// The largest of a figure over looks at which a body was loaded: with a tenth, more or less, of the largest stored energy that there will have
-/// been in the end. Looks go by their stored energy into classes, a quarter of a decade each, of which the highest few are kept.
+/// The largest of a figure over looks at which a body was loaded: with a tenth, more or less, of the largest stored
+/// energy that there will have been in the end. Looks go by their stored energy into classes, a quarter of a decade
+/// each, of which the highest few are kept.
 class WorstLoaded {
  public:
   WorstLoaded() { none_ = 1; }
@@ -93,10 +101,11 @@ class WorstLoaded {
 QualityVerdict judged(const QualityFigures& figures);
 nlohmann::ordered_json quality_json(const QualityFigures& figures);
 
-/// Gathers them, at looks every so many steps and in the step of the first break. Once what had broken carries, on the mean over the steps
-/// from one look to the next, less than a tenth of the largest load, the test is over: pieces that swing pull and push by turns, and tell
-/// nothing of it. It goes on when it is loaded anew: when a tenth of the largest stored energy has been brought. A look after the first break
-/// counts only when the next one finds that it was not over yet.
+/// Gathers them, at looks every so many steps and in the step of the first break. Once what had broken carries, on the
+/// mean over the steps from one look to the next, less than a tenth of the largest load, the test is over: pieces that
+/// swing pull and push by turns, and tell nothing of it. It goes on when it is loaded anew: when a tenth of the largest
+/// stored energy has been brought. A look after the first break counts only when the next one finds that it was not
+/// over yet.
 class Quality {
  public:
   Quality() = default;

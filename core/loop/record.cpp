@@ -29,7 +29,8 @@ struct Record::OpenCurve final : CurveSink {
   const Moment& moment;
 };
 
-Record::Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, RunOptions& options, Fresh& fresh, Balance& balance)
+Record::Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, RunOptions& options, Fresh& fresh,
+               Balance& balance)
     : state_(state),
       catalogue_(catalogue),
       folder_(folder),
@@ -54,7 +55,8 @@ RunMeta Record::meta() const {
   meta.version = version;
   for (const Library& library : catalogue_.libraries())
     for (const PluginEntry& entry : library.entries)
-      meta.plugins.push_back(fmt::format("{}/{} {} {}", kind_name(entry.kind), entry.tag, library.version, library.path.string()));
+      meta.plugins.push_back(
+          fmt::format("{}/{} {} {}", kind_name(entry.kind), entry.tag, library.version, library.path.string()));
   meta.threads = options_.threads;
   meta.seed = state_.scene.seed;
   meta.packing = "[" + join(figures_.packing_reports, ",") + "]";
@@ -70,7 +72,8 @@ void Record::open() {
   } else {
     const auto cuts = cuts_to(curve_ends_, curves_to_cut());
     folder_.clear_leftovers();
-    recorder_ = Recorder::resume(folder_, meta(), options, state_.domain(), frame_now_.is_of(state_.moment) ? state_.moment.step : state_.moment.step - 1);
+    recorder_ = Recorder::resume(folder_, meta(), options, state_.domain(),
+                                 frame_now_.is_of(state_.moment) ? state_.moment.step : state_.moment.step - 1);
     notes = lost_rows(curve_ends_, cuts);
     cut(cuts);
   }
@@ -149,38 +152,53 @@ void Record::load() {
   check_restored(meta);
   state_.moment = meta.moment;
   wall_before_ = state_.wall_seconds;
-  for (const auto& report : bounded_json(meta.texts.at("packing"))) figures_.packing_reports.push_back(json_text(report));
+  for (const auto& report : bounded_json(meta.texts.at("packing")))
+    figures_.packing_reports.push_back(json_text(report));
   const auto ends = bounded_json(meta.texts.at("curves"));
-  for (const auto& [curve, end] : ends.items()) curve_ends_[curve] = {end[0].get<std::uintmax_t>(), end[1].get<std::string>()};
+  for (const auto& [curve, end] : ends.items())
+    curve_ends_[curve] = {end[0].get<std::uintmax_t>(), end[1].get<std::string>()};
   for (const auto& note : bounded_json(meta.texts.at("notes"))) figures_.notes.push_back(note.get<std::string>());
   frame_now_ = *FrameNow::of(meta.texts.at("frame"));
   balance_.restore(FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), state_.domain()).value());
   saved_step_ = meta.moment.step;
   former_summary_ = ended_summary();
   if (meta.version != version)
-    options_.log.warn(fmt::format("this run was written by beadwork {}, and goes on with {}: its results may be other bits than those of either alone", meta.version, version));
+    options_.log.warn(
+        fmt::format("this run was written by beadwork {}, and goes on with {}: its results may be other bits than "
+                    "those of either alone",
+                    meta.version, version));
   options_.log.say(fmt::format("resumed at step {}", state_.moment.step));
 }
 
 // What the loop takes for granted of a checkpoint, beyond what its reader knows of.
 void Record::check_restored(const CheckpointMeta& meta) const {
   const auto refuse_if = [&](bool wrong, const std::string& what) {
-    if (wrong) throw MachineFailure(fmt::format("cannot read checkpoint '{}': {}", folder_.checkpoint().string(), what));
+    if (wrong)
+      throw MachineFailure(fmt::format("cannot read checkpoint '{}': {}", folder_.checkpoint().string(), what));
   };
   const auto stages = state_.scene.stages.size();
-  refuse_if(static_cast<std::size_t>(meta.moment.stage) >= stages, fmt::format("it is of stage {}, the deck has {}", meta.moment.stage + 1, stages));
-  refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(), "its report on the packing is not whole");
-  refuse_if(!meta.texts.contains("free-bodies") || !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), state_.domain()),
+  refuse_if(static_cast<std::size_t>(meta.moment.stage) >= stages,
+            fmt::format("it is of stage {}, the deck has {}", meta.moment.stage + 1, stages));
+  refuse_if(!meta.texts.contains("packing") || !bounded_json(meta.texts.at("packing")).is_array(),
+            "its report on the packing is not whole");
+  refuse_if(!meta.texts.contains("free-bodies") ||
+                !FreeMotions::restored(bounded_json(meta.texts.at("free-bodies")), state_.domain()),
             "what it says of free bodies is not whole");
   const auto curves = meta.texts.contains("curves") ? bounded_json(meta.texts.at("curves")) : nlohmann::ordered_json();
-  const auto is_end = [](const auto& end) { return end.is_array() && end.size() == 2 && end[0].is_number_unsigned() && end[1].is_string(); };
-  refuse_if(!curves.is_object() || !std::all_of(curves.begin(), curves.end(), is_end), "what it says of curves is not whole");
+  const auto is_end = [](const auto& end) {
+    return end.is_array() && end.size() == 2 && end[0].is_number_unsigned() && end[1].is_string();
+  };
+  refuse_if(!curves.is_object() || !std::all_of(curves.begin(), curves.end(), is_end),
+            "what it says of curves is not whole");
   const auto notes = meta.texts.contains("notes") ? bounded_json(meta.texts.at("notes")) : nlohmann::ordered_json();
-  refuse_if(!notes.is_array() || !std::all_of(notes.begin(), notes.end(), [](const auto& note) { return note.is_string(); }),
-            "what is to be known of its record is not whole");
-  refuse_if(!meta.texts.contains("frame") || !FrameNow::of(meta.texts.at("frame")), "what it says of a frame is not whole");
+  refuse_if(
+      !notes.is_array() || !std::all_of(notes.begin(), notes.end(), [](const auto& note) { return note.is_string(); }),
+      "what is to be known of its record is not whole");
+  refuse_if(!meta.texts.contains("frame") || !FrameNow::of(meta.texts.at("frame")),
+            "what it says of a frame is not whole");
   refuse_if(!std::isfinite(state_.wall_seconds), "'wall-seconds' is no number");
-  const auto watchers = static_cast<Real>(state_.scene.stages[static_cast<std::size_t>(meta.moment.stage)].watchers.size());
+  const auto watchers =
+      static_cast<Real>(state_.scene.stages[static_cast<std::size_t>(meta.moment.stage)].watchers.size());
   refuse_if(!(state_.looks_owed >= 0 && state_.looks_owed <= watchers), "it counts more watchers than the deck has");
 }
 
@@ -203,7 +221,7 @@ void Record::leave_as_found() const {
     options_.log.warn(fmt::format("summary.json could not be put back: {}", failure.what()));
     try {
       overwrite(folder_.summary(), *former_summary_);  // in the room that it has
-    } catch (const std::exception&) {  // said already
+    } catch (const std::exception&) {                  // said already
     }
   }
 }
@@ -213,8 +231,8 @@ bool Record::save_now_and_then(Clock::time_point now) {
     shown_ = now;
     show_progress();
   }
-  const Real patience =
-      saved_step_ ? options_.checkpoint_seconds : std::min(options_.first_checkpoint_seconds, options_.checkpoint_seconds);
+  const Real patience = saved_step_ ? options_.checkpoint_seconds
+                                    : std::min(options_.first_checkpoint_seconds, options_.checkpoint_seconds);
   if (std::chrono::duration<Real>(now - saved_).count() < patience) return false;
   save();
   reserve_room();
@@ -282,7 +300,8 @@ void Record::rescue(const std::string& reason) {
     figures_.exit_code = ExitCode::machine;
     figures_.exit_reason = reason;
     if (saved_step_)
-      figures_.exit_reason += fmt::format("; the newest checkpoint is of step {}, go on with: {}", *saved_step_, options_.commands.go_on);
+      figures_.exit_reason +=
+          fmt::format("; the newest checkpoint is of step {}, go on with: {}", *saved_step_, options_.commands.go_on);
   }
   if (!attempt("summary.json could not be replaced", [&] { write_summary(); }))
     attempt("summary.json still says that the run goes on", [&] { overwrite(folder_.summary(), summary()); });
@@ -304,7 +323,8 @@ void Record::close(const std::string& status, ExitCode code, const std::string& 
     if (!recorder_->consolidate(state_.domain(), why)) options_.log.warn("run.h5 still links to its frames: " + why);
   }
   if (former_summary_ && status != "done") return leave_as_found();
-  if (folder_.holds_former()) options_.log.say("this run had not begun: the one that it was to replace stands as it was");
+  if (folder_.holds_former())
+    options_.log.say("this run had not begun: the one that it was to replace stands as it was");
   write_summary();
 }
 
@@ -322,13 +342,15 @@ void Record::say_largest_uses(bool failed) const {
 CurveSink& Record::curve(const CurvePlan& plan) {
   const auto there = curves_.find(plan.name);
   if (there != curves_.end()) return *there->second;
-  if (!is_plain_name(plan.name)) throw std::invalid_argument(fmt::format("a curve wants {}, got \"{}\"", plain_name, plan.name));
+  if (!is_plain_name(plan.name))
+    throw std::invalid_argument(fmt::format("a curve wants {}, got \"{}\"", plain_name, plan.name));
   std::vector<CurveColumn> columns{{"time", "s"}};
   for (const auto& [name, unit] : plan.columns) columns.push_back({name, unit});
   const auto file = folder_.curve(plan.name);
   folder_.claim(file);
   folder_.claim(std::filesystem::path(file).replace_extension(".json"));
-  auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns) : Curve::fresh(file, columns), state_.moment);
+  auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns) : Curve::fresh(file, columns),
+                                          state_.moment);
   made->curve.write_sidecar(curve_json(plan));
   return *(curves_[plan.name] = std::move(made));
 }
@@ -345,7 +367,9 @@ std::vector<const Column*> columns_of(const Table& table, const FramePlan& plan)
       found.push_back(column);
   }
   constexpr std::string_view own[] = {"first", "second", "target", "free-start", "free-body"};
-  std::erase_if(found, [&](const Column* column) { return std::find(std::begin(own), std::end(own), column->field().name) != std::end(own); });
+  std::erase_if(found, [&](const Column* column) {
+    return std::find(std::begin(own), std::end(own), column->field().name) != std::end(own);
+  });
   return found;
 }
 

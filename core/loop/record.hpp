@@ -21,8 +21,9 @@ namespace beadwork {
 struct RunFigures {
   std::string status = "running";
   std::string exit_reason;
-  std::optional<ExitCode> exit_code;         ///< once it has ended: by whose fault
-  Real wall_seconds = 0, loop_seconds = 0;   ///< the loop's are those of steps and looks, without filling and checkpoints
+  std::optional<ExitCode> exit_code;  ///< once it has ended: by whose fault
+  Real wall_seconds = 0,
+       loop_seconds = 0;  ///< the loop's are those of steps and looks, without filling and checkpoints
   Real bond_updates = 0;
   std::vector<std::string> packing_reports;  ///< JSON objects
   std::vector<std::string> notes;            ///< what is to be known of the record, a sentence each
@@ -33,7 +34,8 @@ class Record {
  public:
   using Clock = std::chrono::steady_clock;
 
-  Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, RunOptions& options, Fresh& fresh, Balance& balance);
+  Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, RunOptions& options, Fresh& fresh,
+         Balance& balance);
   ~Record();
 
   /// Takes up the newest checkpoint; what is refused here leaves the folder as it was.
@@ -48,7 +50,8 @@ class Record {
   void save();
   /// Tells how far the run has come, and saves, when it is time to; whether it saved.
   bool save_now_and_then(Clock::time_point now);
-  /// Holds the room of the next checkpoint, where its part file will stand: when the disk is full it can still be written.
+  /// Holds the room of the next checkpoint, where its part file will stand: when the disk is full it can still be
+  /// written.
   void reserve_room() const;
   /// From the first step on it is this session that ends, one way or another.
   void note_step() { former_summary_.reset(); }

@@ -72,7 +72,8 @@ void Run::enter_stage(std::size_t number, bool resumed) {
     resumed ? look_again() : looks_.look();
   } catch (const DeckFailure& refused) {
     if (number == 0) throw;
-    throw PhysicsFailure(fmt::format("{}\nso stage '{}' cannot begin, at step {}", refused.what(), state_.stage().name, state_.moment.step));
+    throw PhysicsFailure(fmt::format("{}\nso stage '{}' cannot begin, at step {}", refused.what(), state_.stage().name,
+                                     state_.moment.step));
   }
 }
 
@@ -117,7 +118,8 @@ void Run::go_on_to_end() {
     state_.loop_seconds += std::chrono::duration<Real>(now - from).count();
     from = record_.save_now_and_then(now) ? Clock::now() : now;  // a checkpoint is no part of the loop
   }
-  record_.figures().exit_reason = fmt::format("stage '{}' reached {}", state_.stage().name, state_.stage().until->met());
+  record_.figures().exit_reason =
+      fmt::format("stage '{}' reached {}", state_.stage().name, state_.stage().until->met());
   record_.save();  // before the last looks, so that a run that is given another end goes on as if it had never stopped
   state_.phase = RunState::Phase::after_stage;
   balance_.check();
@@ -128,7 +130,8 @@ void Run::go_on_to_end() {
 bool Run::over() {
   if (options_.is_interrupted()) {
     fresh_.complete();
-    throw Interrupted(fmt::format("interrupted at step {}; go on with: {}", state_.moment.step, options_.commands.go_on));
+    throw Interrupted(
+        fmt::format("interrupted at step {}; go on with: {}", state_.moment.step, options_.commands.go_on));
   }
   std::vector<Peak>& peaks = state_.peaks[state_.stage_number()];
   raise(peaks, state_.moment, state_.held());

@@ -21,11 +21,11 @@ class Run final : private Workings {
  public:
   Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions options);
 
-  /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then saved,
-  /// as far as the machine lets it.
+  /// To the end of the last stage. Throws PhysicsFailure, Interrupted or MachineFailure; what was reached is then
+  /// saved, as far as the machine lets it.
   void all();
-  /// Instead of all(): fills, bonds, goes on for some seconds of wall time, and has each watcher look some times, be it beyond the
-  /// end of the stage. What watchers record goes to the run's folder, which is of no use afterwards.
+  /// Instead of all(): fills, bonds, goes on for some seconds of wall time, and has each watcher look some times, be it
+  /// beyond the end of the stage. What watchers record goes to the run's folder, which is of no use afterwards.
   Trial trial(Real seconds);
   const RunFigures& figures() { return record_.figures(); }
 

@@ -41,7 +41,8 @@ RunState::RunState(Scene& s)
   keep_uses();
   Table& families = list_of(domain(), "families", scene.families.size());
   for (std::size_t k = 0; k < scene.families.size(); ++k)
-    released.emplace_back(families, "released", "J", "Energy of broken bonds, or of all once they act no longer", static_cast<Index>(k));
+    released.emplace_back(families, "released", "J", "Energy of broken bonds, or of all once they act no longer",
+                          static_cast<Index>(k));
 }
 
 void RunState::keep_constraints() {
@@ -75,7 +76,8 @@ void RunState::keep_watchers() {
     for (WatcherState& watcher : of_stage) {
       watcher.last_look.stand_in(list, "last-look", "1", "Step at which a watcher looked last", row++);
       watcher.last_look = -1;
-      for (Kept& looked : watcher.looked) looked.stand_in(marks, "looked", "1", "1 once the moment had its look", mark++);
+      for (Kept& looked : watcher.looked)
+        looked.stand_in(marks, "looked", "1", "1 once the moment had its look", mark++);
     }
 }
 
@@ -89,7 +91,8 @@ void RunState::keep_uses() {
 }
 
 Index RunState::number_of(const BondTable& table) const {
-  return static_cast<Index>(std::find(scene.families.begin(), scene.families.end(), table.name()) - scene.families.begin());
+  return static_cast<Index>(std::find(scene.families.begin(), scene.families.end(), table.name()) -
+                            scene.families.begin());
 }
 
 std::size_t RunState::most_held() const {

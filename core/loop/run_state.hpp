@@ -1,6 +1,6 @@
 #pragma once
-// What a run must remember, and where it stands. Its numbers are columns of the scene, so that a checkpoint has them all and nothing is
-// copied to and fro.
+// What a run must remember, and where it stands. Its numbers are columns of the scene, so that a checkpoint has them
+// all and nothing is copied to and fro.
 
 #include <span>
 #include <utility>
@@ -33,15 +33,16 @@ class RunState {
   Scene& scene;
   Moment moment;
   Phase phase = Phase::within_step;
-  std::vector<std::vector<Constraint>> constraints;          ///< by stage
-  std::vector<std::vector<Peak>> peaks;                      ///< by stage, of driven sets
-  std::vector<std::vector<WatcherState>> watchers;           ///< by stage
-  std::vector<std::pair<const Failure*, LargestUse>> uses;   ///< by criterion, in the order of the deck
-  std::vector<Kept> released;                                ///< by family: of broken bonds, and of all once they act no longer [J]
-  Kept bond_updates, loop_seconds, wall_seconds;             ///< the loop's are those of steps and looks, without filling and checkpoints
-  Kept initial_energy;                                       ///< there without any work [J]
-  Kept looks_owed;                                           ///< watchers of the stage that have not had their turn at this step, last in the order
-  std::vector<ActingLaw> laws;                               ///< of the present stage
+  std::vector<std::vector<Constraint>> constraints;         ///< by stage
+  std::vector<std::vector<Peak>> peaks;                     ///< by stage, of driven sets
+  std::vector<std::vector<WatcherState>> watchers;          ///< by stage
+  std::vector<std::pair<const Failure*, LargestUse>> uses;  ///< by criterion, in the order of the deck
+  std::vector<Kept> released;  ///< by family: of broken bonds, and of all once they act no longer [J]
+  Kept bond_updates, loop_seconds,
+      wall_seconds;             ///< the loop's are those of steps and looks, without filling and checkpoints
+  Kept initial_energy;          ///< there without any work [J]
+  Kept looks_owed;              ///< watchers of the stage that have not had their turn at this step, last in the order
+  std::vector<ActingLaw> laws;  ///< of the present stage
 
   Domain& domain() const { return *scene.domain; }
   std::size_t stage_number() const { return static_cast<std::size_t>(moment.stage); }

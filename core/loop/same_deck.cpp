@@ -18,7 +18,8 @@ std::string shown(const PlainAttribute& attribute) { return fmt::format("{}=\"{}
 /// Children are told apart by their tag and by the name that a deck gives them.
 std::string key_of(const PlainNode& node) {
   for (const char* name : {"name", "set", "of"})
-    if (const PlainAttribute* found = node.find(name); found && node.tag != "stage") return node.tag + " " + found->value;
+    if (const PlainAttribute* found = node.find(name); found && node.tag != "stage")
+      return node.tag + " " + found->value;
   return node.tag;
 }
 
@@ -36,7 +37,8 @@ std::vector<std::string> keys_of(const std::vector<PlainNode>& nodes) {
 
 class Comparison {
  public:
-  Comparison(const FileSums& saved, const FileSums& now, Complaints& complaints) : saved_(saved), now_(now), complaints_(complaints) {}
+  Comparison(const FileSums& saved, const FileSums& now, Complaints& complaints)
+      : saved_(saved), now_(now), complaints_(complaints) {}
 
   /// `section` is the tag of the section in which the nodes stand, as far as they stand in one.
   void compare(const PlainNode& before, const PlainNode& now, const std::string& section) {
@@ -44,7 +46,8 @@ class Comparison {
       if (!may_differ(now, each.name, section)) compare(before.find(each.name), each);
     for (const PlainAttribute& each : before.attributes)
       if (!now.find(each.name) && !may_differ(now, each.name, section))
-        complaints_.error(now.at, fmt::format("<{}> has {} in the run that is to go on, and no '{}' here", now.tag, shown(each), each.name));
+        complaints_.error(now.at, fmt::format("<{}> has {} in the run that is to go on, and no '{}' here", now.tag,
+                                              shown(each), each.name));
     compare_children(before, now, now.tag == "scene" || now.tag == "stage" ? "" : now.tag);
   }
 
@@ -58,7 +61,8 @@ class Comparison {
   void compare(const PlainAttribute* before, const PlainAttribute& now) {
     if (before && (before->value == now.value || is_same_file(before->value, now.value))) return;
     const std::string there = before ? fmt::format("\"{}\"", before->value) : "not given";
-    complaints_.error(now.at, fmt::format("'{}' is \"{}\" here, but {} in the run that is to go on", now.name, now.value, there));
+    complaints_.error(
+        now.at, fmt::format("'{}' is \"{}\" here, but {} in the run that is to go on", now.name, now.value, there));
   }
 
   bool is_same_file(const std::string& before, const std::string& now) const {
@@ -79,7 +83,8 @@ class Comparison {
       } else {
         pairs_until(odd.number, now.children.size());
         const PlainNode& node = before.children[i++];
-        complaints_.error(now.at, fmt::format("<{}> has {} in the run that is to go on, and not here", now.tag, shown(node)));
+        complaints_.error(now.at,
+                          fmt::format("<{}> has {} in the run that is to go on, and not here", now.tag, shown(node)));
       }
     }
     pairs_until(before.children.size(), now.children.size());
@@ -93,7 +98,8 @@ class Comparison {
 
 FileSums file_sums(const std::vector<std::string>& paths) {
   FileSums sums;
-  for (const std::string& path : paths) sums[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
+  for (const std::string& path : paths)
+    sums[std::filesystem::absolute(path).lexically_normal().string()] = sha256_of_file(path);
   return sums;
 }
 
@@ -107,7 +113,8 @@ void refuse_other_deck(const DeckRecord& saved, const PlainNode& now, const File
       complaints.error({}, fmt::format("the file {} has changed since the run began", path));
   if (complaints.errors() == 0) return;
   throw DeckFailure(
-      "error: the deck is not the one that began this run; only 'until', the 'every' of what stands in <watch>, the scene's name and threads may differ:\n" +
+      "error: the deck is not the one that began this run; only 'until', the 'every' of what stands in <watch>, the "
+      "scene's name and threads may differ:\n" +
       complaints.text());
 }
 

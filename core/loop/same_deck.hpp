@@ -20,8 +20,8 @@ struct DeckRecord {
   FileSums files;
 };
 
-/// A run goes on only with the deck that began it. What says when to end, how often to look, where files and libraries lie, or what
-/// the scene is called may differ; else DeckFailure with each difference, at its place in the deck.
+/// A run goes on only with the deck that began it. What says when to end, how often to look, where files and libraries
+/// lie, or what the scene is called may differ; else DeckFailure with each difference, at its place in the deck.
 void refuse_other_deck(const DeckRecord& saved, const PlainNode& now, const FileSums& files);
 
 }  // namespace beadwork

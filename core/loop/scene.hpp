@@ -45,8 +45,8 @@ class Scene {
   std::uint64_t seed = 0;
   std::string deck_path, deck_text, deck_sha256;
   std::vector<Override> overrides;
-  /// The deck with every value in SI, every fallback written out, and paths absolute: it stands for itself, and each node and
-  /// attribute of the tree knows its place in the deck.
+  /// The deck with every value in SI, every fallback written out, and paths absolute: it stands for itself, and each
+  /// node and attribute of the tree knows its place in the deck.
   std::string resolved;
   PlainNode resolved_tree;
 
@@ -54,10 +54,10 @@ class Scene {
   std::vector<Filler*> fillers;
   std::vector<Derived*> derived;
   std::vector<Stage> stages;
-  std::set<std::string> libraries;                                ///< of the plugins in use, those that a deck has to name
-  std::vector<std::string> families;                              ///< names, in the order of their tables
-  std::unique_ptr<Domain> domain;                                 ///< with every column that the plugins ask for, and no rows yet
-  std::set<const Plugin*> section_readers;                        ///< plugins that read what bond laws offer of each bond
+  std::set<std::string> libraries;          ///< of the plugins in use, those that a deck has to name
+  std::vector<std::string> families;        ///< names, in the order of their tables
+  std::unique_ptr<Domain> domain;           ///< with every column that the plugins ask for, and no rows yet
+  std::set<const Plugin*> section_readers;  ///< plugins that read what bond laws offer of each bond
   std::map<const Derived*, std::set<const Plugin*>> derived_for;  ///< who reads a derived field, through others too
 
   /// Points the views of all plugins at the columns of the domain: whenever these may have moved.
@@ -65,7 +65,8 @@ class Scene {
   /// The stage in which a family first stands.
   std::size_t first_stage(const BondLaw& law) const;
   const BondLaw* law_of(const std::string& family) const;
-  /// Paths of the files on which a run depends beside the deck: of data, and plugin libraries that are not the program's own.
+  /// Paths of the files on which a run depends beside the deck: of data, and plugin libraries that are not the
+  /// program's own.
   std::vector<std::string> files() const;
   const std::set<const Plugin*>& readers_of(const Derived& provider) const { return derived_for.at(&provider); }
 };

@@ -21,12 +21,15 @@ void require_room(const Domain& domain, const BondLaw& law, std::size_t pairs) {
     refuse(law.at(), fmt::format("{} bonds more than the {} that are there cannot be numbered", pairs, domain.bonds()));
 }
 
-bool begins_here(const RunState& state, const BondLaw& law) { return state.scene.first_stage(law) == state.stage_number(); }
+bool begins_here(const RunState& state, const BondLaw& law) {
+  return state.scene.first_stage(law) == state.stage_number();
+}
 
 void connect_family(RunState& state, BondLaw& law, BondTable& table, const Log& log) {
   blaming(law, state.moment, [&] { law.connect(state.domain(), table); });
   const std::string remark = blaming(law, "remark", [&] { return law.remark(); });
-  log.say(fmt::format("bond family '{}': {} bonds{}{}", law.family(), table.size(), remark.empty() ? "" : "; ", remark));
+  log.say(
+      fmt::format("bond family '{}': {} bonds{}{}", law.family(), table.size(), remark.empty() ? "" : "; ", remark));
   const std::string caution = blaming(law, "caution", [&] { return law.caution(); });
   if (!caution.empty()) log.warn(fmt::format("{}: bond family '{}': {}", law.at().where(), law.family(), caution));
 }
@@ -74,7 +77,8 @@ void connect(RunState& state, const Log& log) {
 void begin_constraints(RunState& state) {
   const auto& first = state.scene.stages.front().loads;
   for (Constraint& c : state.held()) {
-    const bool stood = state.stage_number() > 0 && std::any_of(first.begin(), first.end(), [&](const Load* load) { return load->id() == c.by; });
+    const bool stood = state.stage_number() > 0 &&
+                       std::any_of(first.begin(), first.end(), [&](const Load* load) { return load->id() == c.by; });
     c.began = stood ? 0 : state.moment.stage_start;
   }
 }

@@ -6,7 +6,8 @@
 
 namespace beadwork {
 
-/// Rows for the families that first stand in this stage. Throws DeckFailure for one that bonds nothing, or more than can be numbered.
+/// Rows for the families that first stand in this stage. Throws DeckFailure for one that bonds nothing, or more than
+/// can be numbered.
 void create_families(RunState& state, const RunOptions& options);
 /// The laws of the stage act from now on, with their bonds cut into chunks.
 void let_laws_act(RunState& state);

@@ -21,7 +21,9 @@ class Terms final : public EnergySink {
   void work(const std::string& by, Real joule) override { sums_.work(by, joule), add("work: " + by, joule); }
   void stored(const std::string& in, Real joule) override { sums_.stored(in, joule), add("stored: " + in, joule); }
   void kinetic(Real joule) override { sums_.kinetic(joule), add("kinetic", joule); }
-  void dissipated(const std::string& by, Real joule) override { sums_.dissipated(by, joule), add("dissipated: " + by, joule); }
+  void dissipated(const std::string& by, Real joule) override {
+    sums_.dissipated(by, joule), add("dissipated: " + by, joule);
+  }
 
   Json json(Real initial) const {
     Json all = terms_;
@@ -67,7 +69,8 @@ Json utilisation(const RunState& state, const RunFigures& figures) {
 
 }  // namespace
 
-std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files, const RunFigures& figures, int threads) {
+std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files,
+                         const RunFigures& figures, int threads) {
   const Scene& scene = state.scene;
   const Moment& moment = state.moment;
   const Domain& domain = state.domain();
@@ -106,7 +109,9 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   json["breaks"] = Json::object();
   const BreakLog& log = domain.breaks();
   for (const std::string& mode : log.modes) json["breaks"][mode] = 0;
-  for (const Break& b : log.breaks) json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] = json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
+  for (const Break& b : log.breaks)
+    json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] =
+        json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
   json["utilisation"] = utilisation(state, figures);
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));

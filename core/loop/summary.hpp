@@ -7,7 +7,8 @@
 
 namespace beadwork {
 
-std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files, const RunFigures& figures, int threads);
+std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files,
+                         const RunFigures& figures, int threads);
 std::string curve_json(const CurvePlan& plan);
 
 }  // namespace beadwork

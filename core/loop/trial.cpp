@@ -22,8 +22,8 @@ Trial Run::trial(Real seconds) {
   return trial;
 }
 
-// The first look opens files, so that it tells little of the others; a step comes between two, as no moment is recorded twice, be it
-// one beyond the end of the stage.
+// The first look opens files, so that it tells little of the others; a step comes between two, as no moment is recorded
+// twice, be it one beyond the end of the stage.
 Real Run::try_looks(Watcher& watcher) {
   std::vector<Real> taken;
   for (int look = 0; look < 4; ++look) {

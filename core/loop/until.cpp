@@ -40,7 +40,8 @@ std::vector<std::size_t> ends_of_clauses(std::string_view text, std::string_view
 
 }  // namespace
 
-std::optional<Until> Until::compile(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints) {
+std::optional<Until> Until::compile(const std::string& text, const Location& at, const Scope& scope,
+                                    Complaints& complaints) {
   Until until;
   until.text_ = text;
   const std::string separator = " or ";
@@ -68,7 +69,8 @@ std::optional<Until::Clause> Until::clause(const std::string& text, const Locati
   if (!expression) return std::nullopt;
   Clause clause{What::condition, std::string(trim(text)), at, 0, {}, false, "", "", false, expression};
   if (expression->is_condition()) return clause;
-  const auto mark = Mark::of(*expression, "until", "a time, a number of steps, a displacement or a condition", text, at, complaints);
+  const auto mark =
+      Mark::of(*expression, "until", "a time, a number of steps, a displacement or a condition", text, at, complaints);
   if (!mark) return std::nullopt;
   clause.what = What::mark;
   clause.mark = *mark;
@@ -76,13 +78,15 @@ std::optional<Until::Clause> Until::clause(const std::string& text, const Locati
 }
 
 // "force of SET < 2 percent of its maximum", "displacement of SET >= 1 mm"
-std::optional<Until::Clause> Until::watched(const std::vector<std::string>& words, const std::string& text, const Location& at,
-                                            const Scope& scope, Complaints& complaints) {
-  Clause clause{What::watched, std::string(trim(text)), at, 0, {}, words[0] == "force", words[2], "", false, std::nullopt};
+std::optional<Until::Clause> Until::watched(const std::vector<std::string>& words, const std::string& text,
+                                            const Location& at, const Scope& scope, Complaints& complaints) {
+  Clause clause{What::watched, std::string(trim(text)), at, 0, {}, words[0] == "force", words[2], "", false,
+                std::nullopt};
   const std::vector<std::string> comparisons{"<", "<=", ">", ">="};
   if ((words[0] != "force" && words[0] != "displacement") || words.size() < 5 ||
       std::find(comparisons.begin(), comparisons.end(), words[3]) == comparisons.end()) {
-    complaints.error(at, fmt::format("'until' wants \"force of SET < VALUE\" or \"displacement of SET > VALUE\", got \"{}\"", text));
+    complaints.error(
+        at, fmt::format("'until' wants \"force of SET < VALUE\" or \"displacement of SET > VALUE\", got \"{}\"", text));
     return std::nullopt;
   }
   clause.comparison = words[3];
@@ -107,13 +111,15 @@ std::string Until::Clause::words() const { return what == What::mark ? mark.word
 std::string Until::Clause::si() const {
   if (what == What::mark) return mark.si();
   if (what == What::condition) return condition->text();
-  const std::string limit = of_maximum ? format_number(value) + " of its maximum" : format_quantity(value, watches_force ? "N" : "m");
+  const std::string limit =
+      of_maximum ? format_number(value) + " of its maximum" : format_quantity(value, watches_force ? "N" : "m");
   return fmt::format("{} of {} {} {}", watches_force ? "force" : "displacement", set, comparison, limit);
 }
 
 namespace {
 
-// Sizes of the variable, from tiny to huge, of this sign, between these limits: whether one of them meets the condition.
+// Sizes of the variable, from tiny to huge, of this sign, between these limits: whether one of them meets the
+// condition.
 bool is_met(const Expression& condition, std::size_t variable, Real sign, Real from, Real to) {
   std::vector<Real> values(Mark::variables().size(), 0);
   const auto meets = [&](Real size) {
@@ -128,13 +134,15 @@ bool is_met(const Expression& condition, std::size_t variable, Real sign, Real f
   return any;
 }
 
-// A condition on this variable alone that is met only where the variable never gets. One that is met nowhere that we look is let be.
+// A condition on this variable alone that is met only where the variable never gets. One that is met nowhere that we
+// look is let be.
 bool is_out_of_reach(const Expression& condition, std::size_t variable, Real reach) {
   for (std::size_t v = 0; v < Mark::variables().size(); ++v)
     if (condition.uses(v) != (v == variable)) return false;
   if (is_met(condition, variable, 1, 0, reach)) return false;
   return is_met(condition, variable, -1, 0, std::numeric_limits<Real>::infinity()) ||
-         is_met(condition, variable, 1, std::nextafter(reach, std::numeric_limits<Real>::infinity()), std::numeric_limits<Real>::infinity());
+         is_met(condition, variable, 1, std::nextafter(reach, std::numeric_limits<Real>::infinity()),
+                std::numeric_limits<Real>::infinity());
 }
 
 std::string why_out_of_reach(const Expression& condition, Real reach) {
@@ -142,8 +150,10 @@ std::string why_out_of_reach(const Expression& condition, Real reach) {
     const auto variable = static_cast<std::size_t>(never_negative);
     const Real limit = never_negative == Mark::What::displacement ? reach : std::numeric_limits<Real>::infinity();
     if (!is_out_of_reach(condition, variable, limit)) continue;
-    return std::isfinite(limit) ? fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most", format_quantity(limit, "m"))
-                                : fmt::format("can never be met: the {} is never negative", Mark::variables()[variable].name);
+    return std::isfinite(limit)
+               ? fmt::format("waits for a displacement that meets it, but what is pulled moves {} at most",
+                             format_quantity(limit, "m"))
+               : fmt::format("can never be met: the {} is never negative", Mark::variables()[variable].name);
   }
   return "";
 }
@@ -165,10 +175,13 @@ std::string Until::Clause::why_never(std::span<const Constraint> constraints) co
     return fmt::format("wants a condition on time, step or displacement, \"{}\" never changes", text);
   }
   if (!reach) return fmt::format("watches set '{}', which nothing in <load> drives", set);
-  if (falls && (value < 0 || (value == 0 && comparison == "<"))) return fmt::format("can never be met: a {} is never negative", watches_force ? "force" : "displacement");
-  if (!falls && of_maximum && (value > 1 || (value == 1 && comparison == ">"))) return "can never be met: nothing is above its maximum";
+  if (falls && (value < 0 || (value == 0 && comparison == "<")))
+    return fmt::format("can never be met: a {} is never negative", watches_force ? "force" : "displacement");
+  if (!falls && of_maximum && (value > 1 || (value == 1 && comparison == ">")))
+    return "can never be met: nothing is above its maximum";
   if (of_maximum || watches_force || *reach > value || (comparison == ">=" && *reach == value)) return "";
-  return fmt::format("waits for a displacement {} {}, but set '{}' moves {} at most", comparison, format_quantity(value, "m"), set, format_quantity(*reach, "m"));
+  return fmt::format("waits for a displacement {} {}, but set '{}' moves {} at most", comparison,
+                     format_quantity(value, "m"), set, format_quantity(*reach, "m"));
 }
 
 std::string Until::si() const {
@@ -186,18 +199,21 @@ std::vector<Until::Prospect> Until::prospects(std::span<const Constraint> constr
 std::vector<Peak> peaks_of(std::span<const Constraint> constraints) {
   std::vector<Peak> peaks;
   for (const Constraint& c : constraints)
-    if (c.driven && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; })) peaks.push_back({c.set, {}, {}});
+    if (c.driven && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; }))
+      peaks.push_back({c.set, {}, {}});
   return peaks;
 }
 
 void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Constraint> constraints) {
   for (Peak& peak : peaks) {
     peak.force = std::max<Real>(peak.force, driven_force(constraints, peak.set));
-    peak.displacement = std::max<Real>(peak.displacement, driven_displacement(constraints, peak.set, moment.stage_start, moment.time));
+    peak.displacement =
+        std::max<Real>(peak.displacement, driven_displacement(constraints, peak.set, moment.stage_start, moment.time));
   }
 }
 
-bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) {
+bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints,
+                  std::span<const Peak> peaks) {
   const Real time = moment.time - moment.stage_start;
   const auto steps = static_cast<Real>(moment.step - moment.stage_step);
   switch (clause.what) {
@@ -208,8 +224,9 @@ bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Co
       const Real largest = clause.watches_force ? peak->force : peak->displacement;
       const Real limit = clause.of_maximum ? clause.value * largest : clause.value;
       if (clause.comparison[0] == '<' && !(largest > limit)) return false;
-      const Real value = clause.watches_force ? driven_force(constraints, clause.set)
-                                              : driven_displacement(constraints, clause.set, moment.stage_start, moment.time);
+      const Real value = clause.watches_force
+                             ? driven_force(constraints, clause.set)
+                             : driven_displacement(constraints, clause.set, moment.stage_start, moment.time);
       return compare(value, clause.comparison, limit);
     }
     case What::condition: {

@@ -28,7 +28,8 @@ void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Const
 ///   time > 1 ms and displacement > 0.1 mm          a condition on time, step and displacement
 class Until {
  public:
-  static std::optional<Until> compile(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints);
+  static std::optional<Until> compile(const std::string& text, const Location& at, const Scope& scope,
+                                      Complaints& complaints);
 
   const std::string& text() const { return text_; }
   std::string si() const;  ///< as any deck may give it
@@ -66,11 +67,13 @@ class Until {
     bool of_maximum = false;
     std::optional<Expression> condition;
   };
-  static std::optional<Clause> clause(const std::string& text, const Location& at, const Scope& scope, Complaints& complaints);
-  static std::optional<Clause> watched(const std::vector<std::string>& words, const std::string& text, const Location& at,
-                                       const Scope& scope, Complaints& complaints);
+  static std::optional<Clause> clause(const std::string& text, const Location& at, const Scope& scope,
+                                      Complaints& complaints);
+  static std::optional<Clause> watched(const std::vector<std::string>& words, const std::string& text,
+                                       const Location& at, const Scope& scope, Complaints& complaints);
   std::optional<Real> first(Mark::What what) const;
-  static bool holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks);
+  static bool holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints,
+                    std::span<const Peak> peaks);
 
   std::string text_;
   std::vector<Clause> clauses_;

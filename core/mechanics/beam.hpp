@@ -1,14 +1,12 @@
 #pragma once
-// The cohesive beam: a bond that resists stretching, bending and twisting, with a potential, so that energy
-// and both momenta are kept at finite rotations. Its linearisation is the Euler-Bernoulli beam.
-// docs/theory/cohesive-beam.md
+// The cohesive beam: a bond that resists stretching, bending and twisting, with a potential, so that energy and both
+// momenta are kept at finite rotations. Its linearisation is the Euler-Bernoulli beam. docs/theory/cohesive-beam.md
 //
-//   U = k_n/2 (l - L)^2  +  B (t1.t1 + t1.t2 + t2.t2)  +  k_t/2 phi^2 (B1) t_i = e x n_i    the sine of the
-//   angle between the chord e and the section normal n_i = q_i e0        (B2) phi = 2 u.n1     u = Im(q2
-//   q1*): 2 sin(twist/2) for a pure twist; u.n1 = u.n2, so the ends are equal  (B3)
+//   U = k_n/2 (l - L)^2  +  B (t1.t1 + t1.t2 + t2.t2)  +  k_t/2 phi^2                                            (B1)
+//   t_i = e x n_i     the sine of the angle between the chord e and the section normal n_i = q_i e0              (B2)
+//   phi = 2 u.n1      u = Im(q2 q1*): 2 sin(twist/2) for a pure twist; u.n1 = u.n2, so the ends are equal        (B3)
 //
-// Valid while both section normals are within 90 degrees of the chord (see beam_cosine); a real bond breaks
-// long before.
+// Valid while both section normals are within 90 degrees of the chord (see beam_cosine); a real bond breaks long before.
 
 #include <numbers>
 
@@ -66,8 +64,8 @@ template <class T>
   return {inverse * g - pull * e, copy(torque1), cross(g, e) - torque1};
 }
 
-/// How end 2 lies against where an unstrained beam would have it, as end 1 lies: small where strains are, however far the whole has
-/// moved and turned.
+/// How end 2 lies against where an unstrained beam would have it, as end 1 lies: small where strains are, however far
+/// the whole has moved and turned.
 template <class T>
 struct BeamShift {
   Vec<T> moved;        ///< d - L n_1 [m]
@@ -77,20 +75,21 @@ struct BeamShift {
 };
 
 template <class T>
-[[gnu::always_inline]] inline BeamShift<T> beam_shift(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
+[[gnu::always_inline]] inline BeamShift<T> beam_shift(const BeamRest<T>& rest, const Same<Vec<T>>& d,
+                                                      const Quaternion<T>& q1, const Quaternion<T>& q2) {
   const Vec<T> n1 = rotate(q1, rest.axis);
   const Vec<T> moved = d - rest.length * n1;
   return {moved, dot(moved, moved + (rest.length + rest.length) * n1), n1, relative(q1, q2)};
 }
 
-/// The same forces and torques from that: no large number is taken from another, so that single precision keeps its digits
-/// (docs/decisions/mixed-precision.md). The axis of the rest is not used.
+/// The same forces and torques from that: no large number is taken from another, so that single precision keeps its
+/// digits (docs/decisions/mixed-precision.md). The axis of the rest is not used.
 template <class T>
 [[gnu::always_inline]] inline Wrench<T> beam_wrench(const BeamRest<T>& rest, const BeamShift<T>& shift) {
   const Vec<T>&n1 = shift.normal, &u = shift.moved;
   const T L = rest.length;
   const T l = sqrt(L * L + shift.grown);
-  const T both = T(1) / (l * (l + L));  // one division for two
+  const T both = T(1) / (l * (l + L));         // one division for two
   const T stretch = shift.grown * (both * l);  // l - L
   const T inverse = both * (l + L);
   const Vec<T> swing = inverse * (u - stretch * n1);  // e - n_1
@@ -133,8 +132,7 @@ BeamEnergy<T> beam_energy(const BeamRest<T>& rest, const Same<Vec<T>>& d, const 
 
 /// Cosine of the larger angle between the chord and a section normal. The law is not to be trusted below 0.
 template <class T>
-T beam_cosine(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1,
-              const Quaternion<T>& q2) {
+T beam_cosine(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
   return min(dot(d, rotate(q1, rest.axis)), dot(d, rotate(q2, rest.axis))) / sqrt(dot(d, d));
 }
 

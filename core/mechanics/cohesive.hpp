@@ -98,9 +98,7 @@ inline Real contact_area(Real radius1, Real radius2) {
 }
 
 /// Area of a contact between a small (matrix) element and a large (fibre) one: pi R1^2 of the small one.
-inline Real contact_area_on_large(Real small_radius) {
-  return std::numbers::pi * small_radius * small_radius;
-}
+inline Real contact_area_on_large(Real small_radius) { return std::numbers::pi * small_radius * small_radius; }
 
 // ---------------------------------------------------------------------------------------------- opening alone
 
@@ -124,8 +122,7 @@ T normal_opening(const CohesiveRest<T>& rest, const Same<Vec<T>>& d) {
 
 /// The normal law alone: a central force, no rotations.
 template <class T>
-[[gnu::always_inline]] inline CohesivePull<T> cohesive_pull(const Softening<T>& law,
-                                                            const CohesiveRest<T>& rest,
+[[gnu::always_inline]] inline CohesivePull<T> cohesive_pull(const Softening<T>& law, const CohesiveRest<T>& rest,
                                                             const Same<Vec<T>>& d, Same<T> history) {
   const T l = sqrt(dot(d, d));
   const T u_n = l - rest.length;

@@ -1,6 +1,7 @@
 #pragma once
 // How the two faces of a contact stand to one another, and the forces that follow from a pull and a drag between them.
-// Each element carries the contact point along: c_i = x_i + q_i a_i, u = c_2 - c_1. What the normal n is makes two kinds:
+// Each element carries the contact point along: c_i = x_i + q_i a_i, u = c_2 - c_1. What the normal n is makes two
+// kinds:
 //
 //   PairFaces     n along the line of centres, u_n = l - l0: Eqs (3), (4) of the paper
 //   CarriedFaces  n given when bonded (a plane's, a fibre's radius) and carried by both elements, n ~ q_1 n_1 + q_2 n_2, u_n = u.n
@@ -48,8 +49,9 @@ struct PairFaces {
 };
 
 template <class T>
-[[gnu::always_inline]] inline PairFaces<T> pair_faces(Same<T> rest_length, const ContactArms<T>& arms, const Same<Vec<T>>& d,
-                                                      const Quaternion<T>& q1, const Quaternion<T>& q2) {
+[[gnu::always_inline]] inline PairFaces<T> pair_faces(Same<T> rest_length, const ContactArms<T>& arms,
+                                                      const Same<Vec<T>>& d, const Quaternion<T>& q1,
+                                                      const Quaternion<T>& q2) {
   const T l = sqrt(dot(d, d));
   const Vec<T> n = (T(1) / l) * d;
   const Vec<T> arm1 = rotate(q1, arms.arm1);
@@ -60,7 +62,8 @@ template <class T>
   return {copy(n), l, copy(arm1), copy(arm2), copy(slip), along, {l - rest_length, sqrt(dot(slip, slip))}};
 }
 
-/// `pull` draws the faces together along n, `drag` acts on the second one against u_s. The factor 1 - u.n/l comes from n, which
+/// `pull` draws the faces together along n, `drag` acts on the second one against u_s. The factor 1 - u.n/l comes from
+/// n, which
 /// turns with the centres; both ends' forces lie on one line, so that angular momentum is kept to round-off.   (C3)
 template <class T>
 [[gnu::always_inline]] inline Wrench<T> wrench_of(const PairFaces<T>& at, const T& pull, const Vec<T>& drag) {
@@ -92,8 +95,9 @@ struct CarriedFaces {
 };
 
 template <class T>
-[[gnu::always_inline]] inline CarriedFaces<T> carried_faces(const ContactArms<T>& arms, const CarriedNormals<T>& normals,
-                                                            const Same<Vec<T>>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
+[[gnu::always_inline]] inline CarriedFaces<T> carried_faces(const ContactArms<T>& arms,
+                                                            const CarriedNormals<T>& normals, const Same<Vec<T>>& d,
+                                                            const Quaternion<T>& q1, const Quaternion<T>& q2) {
   const Vec<T> n1 = rotate(q1, normals.normal1);
   const Vec<T> n2 = rotate(q2, normals.normal2);
   const Vec<T> both = n1 + n2;

@@ -1,6 +1,6 @@
 #pragma once
-// Opening and sliding together: which share of its stiffness a contact still has in either mode, what it remembers, and what energy
-// it has lost. docs/theory/cohesive-contact.md
+// Opening and sliding together: which share of its stiffness a contact still has in either mode, what it remembers, and
+// what energy it has lost. docs/theory/cohesive-contact.md
 //
 //   IndependentModes  each mode by its own law; failure in either takes both. What it remembers: the largest openings.
 //   MixedMode         one damage for both, after Camanho and Davila: onset by the quadratic criterion of stresses, failure at the
@@ -16,7 +16,8 @@ enum class CohesiveModes { normal, shear, both };
 
 /// Recoverable energy of an area [J], `share` being what is left of the stiffnesses.
 template <class Modes, class T>
-[[gnu::always_inline]] inline T held_energy(const Modes& modes, Same<T> area, const Openings<T>& opening, const Openings<T>& share) {
+[[gnu::always_inline]] inline T held_energy(const Modes& modes, Same<T> area, const Openings<T>& opening,
+                                            const Openings<T>& share) {
   return T(0.5) * area *
          (share.normal * T(modes.normal.stiffness) * opening.normal * opening.normal +
           share.shear * T(modes.shear.stiffness) * opening.shear * opening.shear);
@@ -62,16 +63,20 @@ struct IndependentModes {
   template <class T>
   [[gnu::always_inline]] Openings<T> next(const Openings<T>& opening, const Openings<T>& history) const {
     const auto done = failed(history);
-    return {select(done, history.normal, max(history.normal, opening.normal)), select(done, history.shear, max(history.shear, opening.shear))};
+    return {select(done, history.normal, max(history.normal, opening.normal)),
+            select(done, history.shear, max(history.shear, opening.shear))};
   }
 
-  /// Share of the stiffness that acts in each mode; the history includes the present opening. `done`: the contact had failed by the step
-  /// before. In the step in which it fails what the other mode holds still acts, and goes at the end of it.
+  /// Share of the stiffness that acts in each mode; the history includes the present opening. `done`: the contact had
+  /// failed by the step before. In the step in which it fails what the other mode holds still acts, and goes at the end
+  /// of it.
   template <class T, class Mask>
-  [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const Openings<T>& history, const Mask& done) const {
+  [[gnu::always_inline]] Openings<T> share(const Openings<T>& opening, const Openings<T>& history,
+                                           const Mask& done) const {
     T slid(0), opened(0);
     if constexpr (slides) slid = select(done, T(0), integrity(as<T>(shear), history.shear));
-    if constexpr (opens) opened = select(opening.normal < T(0), T(1), select(done, T(0), integrity(as<T>(normal), history.normal)));
+    if constexpr (opens)
+      opened = select(opening.normal < T(0), T(1), select(done, T(0), integrity(as<T>(normal), history.normal)));
     return {opened, slid};
   }
 
@@ -125,15 +130,15 @@ struct MixedMode {
   template <class T>
   struct History {
     T integrity;  ///< smallest share of the stiffness so far, 1 - d
-    T mix;    ///< B at the last accepted opening
+    T mix;        ///< B at the last accepted opening
   };
   template <class T>
   static History<T> undamaged() {
     return {T(1), T(0)};
   }
 
-  /// w = sqrt(K_n <u_n>^2 + K_s u_s^2) and B = K_s u_s^2/w^2. While the openings stay in proportion, B is the share of the second
-  /// mode in the work done, whatever the damage.
+  /// w = sqrt(K_n <u_n>^2 + K_s u_s^2) and B = K_s u_s^2/w^2. While the openings stay in proportion, B is the share of
+  /// the second mode in the work done, whatever the damage.
   template <class T>
   struct Mix {
     T size;  ///< [sqrt(J)/m]
@@ -183,11 +188,14 @@ struct MixedMode {
     return T(0);
   }
 
-  /// The integral of w^2/2 dd at the mix in the middle of the step: exact for openings in proportion, of second order else.
+  /// The integral of w^2/2 dd at the mix in the middle of the step: exact for openings in proportion, of second order
+  /// else.
   template <class T>
   T released(const Openings<T>&, const History<T>& before, const History<T>& after) const {
     const auto law = at_mix(select(before.integrity < T(1), T(0.5) * (before.mix + after.mix), after.mix));
-    const auto way = [&](const T& left) { return law.onset * (T(1) - left) / (law.onset + left * (law.open - law.onset)); };
+    const auto way = [&](const T& left) {
+      return law.onset * (T(1) - left) / (law.onset + left * (law.open - law.onset));
+    };
     return fracture_energy(law) * (way(after.integrity) - way(before.integrity));
   }
 
@@ -200,8 +208,8 @@ struct MixedMode {
 template <class Modes, class T>
 struct CohesiveHistory {
   typename Modes::template History<T> modes;
-  /// 1 for faces that have slid past one another: nothing acts between them for good. 0.5 in the step in which they part: what acts
-  /// between them is part of that step, and goes at the end of it.
+  /// 1 for faces that have slid past one another: nothing acts between them for good. 0.5 in the step in which they
+  /// part: what acts between them is part of that step, and goes at the end of it.
   T parted;
 };
 
@@ -229,8 +237,8 @@ template <class Modes, class Faces, class T>
   return {holds * at.opening.normal, holds * at.opening.shear};
 }
 
-/// Whether the faces part in this state: turned over, or slid past one another with nothing left to hold them by the step before. What resists
-/// no sliding may slide by the final opening too. A mask.
+/// Whether the faces part in this state: turned over, or slid past one another with nothing left to hold them by the
+/// step before. What resists no sliding may slide by the final opening too. A mask.
 template <class Modes, class T>
 [[gnu::always_inline]] inline auto part_now(const Modes& modes, const CarriedFaces<T>& at, Same<T> area,
                                             const typename Modes::template History<T>& before) {
@@ -251,14 +259,16 @@ template <class Modes, class Faces, class T>
     return {share, {next, before.parted}};
   } else {
     const T holds = holding(before);
-    const T parted = holds * select(part_now(modes, at, area, before.modes), T(0.5), T(0)) + (T(1) - holds) * before.parted;
+    const T parted =
+        holds * select(part_now(modes, at, area, before.modes), T(0.5), T(0)) + (T(1) - holds) * before.parted;
     return {{holds * share.normal, holds * share.shear}, {next, parted}};
   }
 }
 
 /// Forces on the two elements.
 template <class Modes, class Faces, class T>
-[[gnu::always_inline]] inline Wrench<T> cohesive_wrench(const Modes& modes, const Faces& at, Same<T> area, const Openings<T>& share) {
+[[gnu::always_inline]] inline Wrench<T> cohesive_wrench(const Modes& modes, const Faces& at, Same<T> area,
+                                                        const Openings<T>& share) {
   const Vec<T> drag = (-area * share.shear * T(modes.shear.stiffness)) * at.slip;
   const T pull = area * share.normal * T(modes.normal.stiffness) * at.opening.normal;
   return wrench_of(at, pull, drag);

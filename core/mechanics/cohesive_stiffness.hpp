@@ -8,8 +8,8 @@ namespace beadwork {
 
 enum class CohesiveSlope {
   undamaged,  ///< k0, as if nothing were damaged: what a time step must be stable for
-  secant,   ///< F/u, never negative: a Newton iteration that does not diverge
-  tangent,  ///< dF/du: -F_c/(u_p - u_e) while softening goes on
+  secant,     ///< F/u, never negative: a Newton iteration that does not diverge
+  tangent,    ///< dF/du: -F_c/(u_p - u_e) while softening goes on
 };
 
 /// Stiffness per area of one mode at an opening, given the accepted history [N/m^3].
@@ -74,8 +74,8 @@ Matrix12 undamaged_stiffness(const Modes& modes, const Faces& at, Real area) {
 
 /// Of a pair's independent modes. What the present forces add by turning is left out for the shear.
 template <CohesiveModes modes>
-Matrix12 cohesive_stiffness(const IndependentModes<modes>& laws, const CohesiveRest<Real>& rest, const PairFaces<Real>& at,
-                            const Openings<Real>& history, CohesiveSlope slope) {
+Matrix12 cohesive_stiffness(const IndependentModes<modes>& laws, const CohesiveRest<Real>& rest,
+                            const PairFaces<Real>& at, const Openings<Real>& history, CohesiveSlope slope) {
   const Openings<Real> next = laws.next(at.opening, history);
   const bool failed = slope != CohesiveSlope::undamaged && laws.failed(next);
   Matrix12 k = Matrix12::Zero();
@@ -86,7 +86,8 @@ Matrix12 cohesive_stiffness(const IndependentModes<modes>& laws, const CohesiveR
   }
   if constexpr (IndependentModes<modes>::slides) {
     if (failed) return k;
-    const Real secant = laws.shear.stiffness * integrity(laws.shear, slope == CohesiveSlope::undamaged ? 0 : next.shear);
+    const Real secant =
+        laws.shear.stiffness * integrity(laws.shear, slope == CohesiveSlope::undamaged ? 0 : next.shear);
     Mat3 shear = secant * Mat3::Identity();
     if (at.opening.shear > 0) {
       const Vec3 way = at.slip / at.opening.shear;

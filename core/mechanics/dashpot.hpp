@@ -14,17 +14,20 @@ struct DashpotRates {
   Real bending = 0, twisting = 0;  ///< c_b, c_w [N m s]
 };
 
-/// From the stiffness of a bond (x1, theta1, x2, theta2) with d = x2 - x1, and 1/m1 + 1/m2 [1/kg] and 1/I1 + 1/I2 [1/(kg m^2)],
-/// the latter 0 where nothing turns.
+/// From the stiffness of a bond (x1, theta1, x2, theta2) with d = x2 - x1, and 1/m1 + 1/m2 [1/kg] and 1/I1 + 1/I2
+/// [1/(kg m^2)], the latter 0 where nothing turns.
 inline DashpotRates dashpot_rates(const Matrix12& k, const Vec3& d, Real zeta, Real lightness, Real looseness) {
   const Vec3 n = d.normalized();
   const Mat3 moved = k.block<3, 3>(6, 6);
   const Mat3 turned = 0.25 * (k.block<3, 3>(3, 3) - k.block<3, 3>(3, 9) - k.block<3, 3>(9, 3) + k.block<3, 3>(9, 9));
   const Real along = n.dot(moved * n), twist = n.dot(turned * n);
-  const auto rate = [&](Real stiffness, Real mobility) { return 2 * zeta * std::sqrt(std::max(Real(0), stiffness) / mobility); };
+  const auto rate = [&](Real stiffness, Real mobility) {
+    return 2 * zeta * std::sqrt(std::max(Real(0), stiffness) / mobility);
+  };
   DashpotRates c{rate(along, lightness), 0, 0, 0};
   if (looseness == 0) return c;
-  c.across = rate(0.5 * (moved.trace() - along), lightness + 0.25 * d.squaredNorm() * looseness);  // slip moves and turns both ends
+  c.across = rate(0.5 * (moved.trace() - along),
+                  lightness + 0.25 * d.squaredNorm() * looseness);  // slip moves and turns both ends
   c.bending = rate(0.5 * (turned.trace() - twist), looseness);
   c.twisting = rate(twist, looseness);
   return c;

@@ -1,7 +1,7 @@
 #pragma once
 // What a law may do with its number type T, besides + - * / and comparison: one scalar or a pack of lanes
-// (core/base/pack.hpp). A law in the hot loop never branches on a T. It chooses with select(mask, a, b), so that each lane
-// may choose differently. Packs bring the same functions in their own namespace, where unqualified calls find
+// (core/base/pack.hpp). A law in the hot loop never branches on a T. It chooses with select(mask, a, b), so that each
+// lane may choose differently. Packs bring the same functions in their own namespace, where unqualified calls find
 // them.
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
-// Powers of numbers in [0, 1], by roots, products and a short series: the power of a library may pick other bits on another
-// processor, and does not take packs.
+// Powers of numbers in [0, 1], by roots, products and a short series: the power of a library may pick other bits on
+// another processor, and does not take packs.
 
 #include <array>
 
@@ -18,7 +18,8 @@ class UnitPower {
     halves_ = static_cast<int>(scaled);
     const Real rest = scaled - halves_;
     series_[0] = 1;
-    for (int n = 1; n < terms; ++n) series_[static_cast<std::size_t>(n)] = series_[static_cast<std::size_t>(n - 1)] * (rest - n + 1) / n;
+    for (int n = 1; n < terms; ++n)
+      series_[static_cast<std::size_t>(n)] = series_[static_cast<std::size_t>(n - 1)] * (rest - n + 1) / n;
     fraction_ = p != whole_;
   }
 
@@ -35,7 +36,8 @@ class UnitPower {
   static constexpr int terms = 8;
   static constexpr Real least = 1e-16;
 
-  /// x to the binary fraction of p: its bits pick among the repeated roots of x, the rest is the series of (1 + z)^rest.
+  /// x to the binary fraction of p: its bits pick among the repeated roots of x, the rest is the series of (1 +
+  /// z)^rest.
   template <class T>
   [[gnu::always_inline]] T fraction(const T& x) const {
     T root = x, power(1);

@@ -15,15 +15,14 @@ VelocityTable::VelocityTable(std::vector<Row> rows) : rows_(std::move(rows)), tr
 }
 
 PrescribedMotion VelocityTable::at(Real t) const {
-  const auto next = std::upper_bound(rows_.begin(), rows_.end(), t,
-                                     [](Real time, const Row& row) { return time < row.time; });
+  const auto next =
+      std::upper_bound(rows_.begin(), rows_.end(), t, [](Real time, const Row& row) { return time < row.time; });
   if (next == rows_.begin()) return {(t - rows_[0].time) * rows_[0].velocity, rows_[0].velocity, 0};
   const std::size_t i = next - rows_.begin() - 1;
   const Real since = t - rows_[i].time;
   if (next == rows_.end()) return {travelled_[i] + since * rows_[i].velocity, rows_[i].velocity, 0};
   const Real slope = (next->velocity - rows_[i].velocity) / (next->time - rows_[i].time);
-  return {travelled_[i] + since * (rows_[i].velocity + 0.5 * slope * since),
-          rows_[i].velocity + slope * since, slope};
+  return {travelled_[i] + since * (rows_[i].velocity + 0.5 * slope * since), rows_[i].velocity + slope * since, slope};
 }
 
 // The turning points are rows, and where a line between two of them crosses zero.

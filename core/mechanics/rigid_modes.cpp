@@ -36,7 +36,8 @@ std::vector<std::string> names_of(const RigidModes& modes) {
   Eigen::Index rank = 0;
   while (rank < turns.singularValues().size() && turns.singularValues()[rank] > turning) ++rank;
   std::vector<std::string> names;
-  for (const std::string& d : rigid::directions(modes.topRows<3>() * turns.matrixV().rightCols(modes.cols() - rank))) names.push_back("move along " + d);
+  for (const std::string& d : rigid::directions(modes.topRows<3>() * turns.matrixV().rightCols(modes.cols() - rank)))
+    names.push_back("move along " + d);
   for (const std::string& d : rigid::directions(turns.matrixU().leftCols(rank))) names.push_back("turn about " + d);
   return names;
 }

@@ -2,8 +2,8 @@
 // Which motions of a body as a whole its supports leave free: the rank of what they prescribe on the six rigid motions.
 // docs/theory/quasi-static.md
 //
-// A rigid motion is q = (u, L w): displacement u of the body's centre and turn w about it, times a length L of the body, so that all six
-// numbers are lengths. A point at the arm d from the centre moves by u + w x d.
+// A rigid motion is q = (u, L w): displacement u of the body's centre and turn w about it, times a length L of the
+// body, so that all six numbers are lengths. A point at the arm d from the centre moves by u + w x d.
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -26,8 +26,9 @@ inline Eigen::Matrix<Real, 3, 6> rigid_at(const Vec3& arm, Real length) {
   return at;
 }
 
-/// Orthonormal motions that have inertia and that no support feels. `held`: sum over supports of r r^T, r the motion that each feels,
-/// of order 1; `inertia`: likewise, over the mass of the body. Motions without inertia (a straight chain of points about itself) are none.
+/// Orthonormal motions that have inertia and that no support feels. `held`: sum over supports of r r^T, r the motion
+/// that each feels, of order 1; `inertia`: likewise, over the mass of the body. Motions without inertia (a straight
+/// chain of points about itself) are none.
 inline RigidModes free_modes(const RigidMatrix& held, const RigidMatrix& inertia) {
   constexpr Real none = 1e-9;  // squared: a support of a thirty-thousandth of the body's length still holds a turn
   const auto columns_where = [](const RigidModes& vectors, const Eigen::VectorXd& values, const auto& wanted) {
@@ -40,7 +41,8 @@ inline RigidModes free_modes(const RigidMatrix& held, const RigidMatrix& inertia
     return kept;
   };
   const Eigen::SelfAdjointEigenSolver<RigidMatrix> heavy(inertia);
-  const RigidModes moving = columns_where(heavy.eigenvectors(), heavy.eigenvalues(), [](Real value) { return value > none; });
+  const RigidModes moving =
+      columns_where(heavy.eigenvectors(), heavy.eigenvalues(), [](Real value) { return value > none; });
   if (moving.cols() == 0) return moving;
   const Eigen::MatrixXd seen = moving.transpose() * held * moving;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> felt(seen);

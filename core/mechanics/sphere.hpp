@@ -8,7 +8,9 @@
 namespace beadwork {
 
 /// [kg]
-inline Real sphere_mass(Real density, Real radius) { return density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
+inline Real sphere_mass(Real density, Real radius) {
+  return density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
 
 /// [m^3]; Omega_i of the virial stress by default.
 inline Real sphere_volume(Real radius) { return sphere_mass(1, radius); }

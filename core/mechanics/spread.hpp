@@ -24,7 +24,8 @@ inline Spread spread_of(std::span<const Vec3> points) {
   for (const Vec3& p : points) middle += p / count;
   Mat3 moment = Mat3::Zero();
   for (const Vec3& p : points) moment += (p - middle) * (p - middle).transpose() / count;
-  const Real scale = moment.trace() > 0 ? moment.trace() : 1;  // squares of micrometres stay far from the tolerance of the solver
+  const Real scale =
+      moment.trace() > 0 ? moment.trace() : 1;  // squares of micrometres stay far from the tolerance of the solver
   const Eigen::SelfAdjointEigenSolver<Mat3> solved(Mat3(moment / scale));
   Spread spread{middle, {}, {}};
   for (int k = 0; k < 3; ++k) {

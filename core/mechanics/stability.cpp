@@ -47,8 +47,7 @@ void ElasticNetwork::set(Index bond, Index first, Index second, const Matrix12& 
   Block& block = blocks_[at(bond)];
   for (std::size_t r = 0; r < 9; ++r)
     for (std::size_t c = 0; c <= r; ++c)
-      block.lower[lower_at(r, c)] =
-          static_cast<float>(stiffness(static_cast<Index>(r) + 3, static_cast<Index>(c) + 3));
+      block.lower[lower_at(r, c)] = static_cast<float>(stiffness(static_cast<Index>(r) + 3, static_cast<Index>(c) + 3));
 }
 
 void ElasticNetwork::add(Index first, Index second, const Matrix12& stiffness) {
@@ -99,16 +98,19 @@ std::array<Real, 4> ElasticNetwork::grips(Index bond) const {
 std::vector<std::array<Real, 2>> ElasticNetwork::total_grips() const {
   if (start_.empty()) link();
   std::vector<std::array<Real, 2>> total(at(elements_));
-  each_shared(elements_, [&](Index i) {
-    std::array<Real, 2> sum{};
-    visit_bonds(i, [&](Index bond) {
-      const auto of = grips(bond);
-      const std::size_t end = first(bond) == i ? 0 : 2;
-      sum[0] += of[end];
-      sum[1] += of[end + 1];
-    });
-    total[at(i)] = sum;
-  }, 1025);
+  each_shared(
+      elements_,
+      [&](Index i) {
+        std::array<Real, 2> sum{};
+        visit_bonds(i, [&](Index bond) {
+          const auto of = grips(bond);
+          const std::size_t end = first(bond) == i ? 0 : 2;
+          sum[0] += of[end];
+          sum[1] += of[end + 1];
+        });
+        total[at(i)] = sum;
+      },
+      1025);
   return total;
 }
 
@@ -130,24 +132,28 @@ std::array<Real, 3> three_rows(const float* lower, const std::array<Real, 9>& z)
 
 void ElasticNetwork::multiply(std::span<const Real> x, std::span<Real> y) const {
   if (start_.empty()) link();
-  each_shared(elements_, [&](Index i) {
-    std::array<Real, 6> sum{};
-    visit_bonds(i, [&](Index bond) {
-      const Ends ends = ends_[at(bond)];
-      const float* lower = blocks_[at(bond)].lower;
-      const Real* x1 = &x[6 * at(ends.first)];
-      const Real* x2 = &x[6 * at(ends.second)];
-      const std::array<Real, 9> z{x1[3], x1[4], x1[5], x2[0] - x1[0], x2[1] - x1[1], x2[2] - x1[2], x2[3], x2[4], x2[5]};
-      const bool is_first = ends.first == i;
-      const auto force = three_rows<3>(lower, z);
-      const auto torque = is_first ? three_rows<0>(lower, z) : three_rows<6>(lower, z);
-      for (std::size_t c = 0; c < 3; ++c) {
-        sum[c] += is_first ? -force[c] : force[c];
-        sum[3 + c] += torque[c];
-      }
-    });
-    std::copy(sum.begin(), sum.end(), y.begin() + 6 * static_cast<std::ptrdiff_t>(i));
-  }, 1025);
+  each_shared(
+      elements_,
+      [&](Index i) {
+        std::array<Real, 6> sum{};
+        visit_bonds(i, [&](Index bond) {
+          const Ends ends = ends_[at(bond)];
+          const float* lower = blocks_[at(bond)].lower;
+          const Real* x1 = &x[6 * at(ends.first)];
+          const Real* x2 = &x[6 * at(ends.second)];
+          const std::array<Real, 9> z{x1[3],         x1[4], x1[5], x2[0] - x1[0], x2[1] - x1[1],
+                                      x2[2] - x1[2], x2[3], x2[4], x2[5]};
+          const bool is_first = ends.first == i;
+          const auto force = three_rows<3>(lower, z);
+          const auto torque = is_first ? three_rows<0>(lower, z) : three_rows<6>(lower, z);
+          for (std::size_t c = 0; c < 3; ++c) {
+            sum[c] += is_first ? -force[c] : force[c];
+            sum[3 + c] += torque[c];
+          }
+        });
+        std::copy(sum.begin(), sum.end(), y.begin() + 6 * static_cast<std::ptrdiff_t>(i));
+      },
+      1025);
 }
 
 Mobility::Mobility(std::span<const Real> mass, std::span<const Real> inertia) : inverse_(6 * mass.size(), 0) {
@@ -173,11 +179,13 @@ Real norm(const std::vector<Real>& u) {
 }
 
 /// u' = s M^-1/2 K M^-1/2 u
-void apply(const StiffnessProduct& product, const std::vector<Real>& root, std::vector<Real>& u,
-           std::vector<Real>& x, Real scale) {
-  each_shared(u.size(), [&](std::size_t i) { x[i] = root[i] * u[i] * scale; }, 6 * 1024 + 1);
+void apply(const StiffnessProduct& product, const std::vector<Real>& root, std::vector<Real>& u, std::vector<Real>& x,
+           Real scale) {
+  each_shared(
+      u.size(), [&](std::size_t i) { x[i] = root[i] * u[i] * scale; }, 6 * 1024 + 1);
   product(x, u);
-  each_shared(u.size(), [&](std::size_t i) { u[i] *= root[i]; }, 6 * 1024 + 1);
+  each_shared(
+      u.size(), [&](std::size_t i) { u[i] *= root[i]; }, 6 * 1024 + 1);
 }
 
 /// Where most of the kinetic energy u^2 of a mode is.
@@ -216,8 +224,7 @@ HighestMode power_iteration(const StiffnessProduct& product, const Mobility& mob
 }
 
 HighestMode power_iteration(const ElasticNetwork& network, const Mobility& mobility, int rounds) {
-  return power_iteration([&](std::span<const Real> x, std::span<Real> y) { network.multiply(x, y); },
-                         mobility, rounds);
+  return power_iteration([&](std::span<const Real> x, std::span<Real> y) { network.multiply(x, y); }, mobility, rounds);
 }
 
 // --------------------------------------------------------------------------------------------------- the
@@ -278,8 +285,7 @@ class BondsAlone {
 }  // namespace
 
 Real bond_lambda(const Matrix12& stiffness, const Mass12& inverse_mass) {
-  const Eigen::SelfAdjointEigenSolver<Matrix12> solver(weighted(stiffness, inverse_mass),
-                                                       Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Matrix12> solver(weighted(stiffness, inverse_mass), Eigen::EigenvaluesOnly);
   return std::max(Real(0), solver.eigenvalues()[11]);
 }
 
@@ -288,15 +294,19 @@ HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility) 
   if (network.bonds() == 0) return best;
   const BondsAlone alone(network, mobility);
   std::vector<Real> norms(at(network.bonds()));
-  each_shared(network.bonds(), [&](Index b) { norms[at(b)] = alone.matrix(b).norm(); }, 1025);
+  each_shared(
+      network.bonds(), [&](Index b) { norms[at(b)] = alone.matrix(b).norm(); }, 1025);
   alone.improve(best, static_cast<Index>(std::max_element(norms.begin(), norms.end()) - norms.begin()));
 
   // The Frobenius norm is never below the eigenvalue. In a lattice all bonds are alike, and no norm tells which could
   // beat the best: then a Cholesky factor does, for a tenth of what the eigenvalues cost.
   constexpr Real rounding = 1e-12;
   std::vector<char> higher(norms.size(), 0);
-  const auto could_beat = [&](Index b) { return norms[at(b)] > best.lambda && !all_below((1 + rounding) * best.lambda, alone.matrix(b)); };
-  each_shared(network.bonds(), [&](Index b) { higher[at(b)] = could_beat(b); }, 1025);
+  const auto could_beat = [&](Index b) {
+    return norms[at(b)] > best.lambda && !all_below((1 + rounding) * best.lambda, alone.matrix(b));
+  };
+  each_shared(
+      network.bonds(), [&](Index b) { higher[at(b)] = could_beat(b); }, 1025);
   std::vector<Index> order;
   for (Index b = 0; b < network.bonds(); ++b)
     if (higher[at(b)]) order.push_back(b);
@@ -312,9 +322,7 @@ HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility) 
 // ----------------------------------------------------------------------------------------------------- the
 // step
 
-Real critical_step(Real lambda) {
-  return lambda > 0 ? 2 / std::sqrt(lambda) : std::numeric_limits<Real>::infinity();
-}
+Real critical_step(Real lambda) { return lambda > 0 ? 2 / std::sqrt(lambda) : std::numeric_limits<Real>::infinity(); }
 
 Real damped_critical_step(Real lambda, Real zeta) {
   return critical_step(lambda) * (std::sqrt(1 + zeta * zeta) - zeta);

@@ -14,8 +14,8 @@ template <class T>
 
 /// v(t+dt), Eq (2); spins alike. Stable for 0 < beta <= 1 below the critical step, for no step with beta > 1.
 template <class T>
-[[gnu::always_inline]] inline Vec<T> correct(const Vec<T>& v, const Vec<T>& a, const Vec<T>& a_next,
-                                             Same<T> beta, Same<T> dt) {
+[[gnu::always_inline]] inline Vec<T> correct(const Vec<T>& v, const Vec<T>& a, const Vec<T>& a_next, Same<T> beta,
+                                             Same<T> dt) {
   return v + (T(0.5) * beta * dt) * (a + a_next);
 }
 

@@ -25,7 +25,8 @@ void for_each(std::size_t count, const Body& body, const Pause& pause) {
   for (std::size_t begin = 0; begin < count; begin += stretch) {
     pause();
     const std::size_t end = std::min(count, begin + stretch);
-    each_shared(end - begin, [&](std::size_t k) { body(begin + k); }, count > worth_sharing ? 2 : stretch + 1);
+    each_shared(
+        end - begin, [&](std::size_t k) { body(begin + k); }, count > worth_sharing ? 2 : stretch + 1);
   }
 }
 

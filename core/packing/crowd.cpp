@@ -71,10 +71,9 @@ const NeighbourList& Neighbours::of(const Crowd& crowd) {
     build(crowd);
     return list_;
   }
-  const Largest worst =
-      sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
-        for (std::size_t i = begin; i < end; ++i) largest.value = std::max(largest.value, change(crowd, i));
-      });
+  const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& largest) {
+    for (std::size_t i = begin; i < end; ++i) largest.value = std::max(largest.value, change(crowd, i));
+  });
   return after(crowd, worst.value);
 }
 

@@ -69,8 +69,7 @@ int ContactEquations::solve(const Damping& damping, Real reduction, int most, co
   };
   Real rho = sum([&](std::size_t e) {
     const Contact& c = contact_[e];
-    const Real diagonal =
-        1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
+    const Real diagonal = 1 + compliance_[std::size_t(c.i)] + (moves(c.j) ? 1 + compliance_[std::size_t(c.j)] : 0);
     extra[e] = (c.gap > 0 ? damping.open : damping.overlapping) * diagonal;
     inverse[e] = 1 / (diagonal + extra[e]);
     residual[e] = -c.gap;

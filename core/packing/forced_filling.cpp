@@ -16,8 +16,7 @@ constexpr Real most_overlap = 0.04;  // mean; beyond it elements are no longer s
 
 void check(const ForcedFilling& rule) {
   if (!(std::isfinite(rule.coordination) && rule.coordination > 0))
-    throw std::invalid_argument("the coordination number must be positive, got " +
-                                std::to_string(rule.coordination));
+    throw std::invalid_argument("the coordination number must be positive, got " + std::to_string(rule.coordination));
   if (!(rule.tolerance >= 0 && rule.tolerance < 1))
     throw std::invalid_argument("the overlap tolerance must be at least 0 and below 1, got " +
                                 std::to_string(rule.tolerance));
@@ -29,15 +28,15 @@ std::size_t place_waiting(Packing& packing, Real tolerance, Random& random) {
     return r.empty() ? Real(0) : *std::max_element(r.begin(), r.end());
   };
   InsertionGrid grid(packing.region, std::max(largest(packing.radius), largest(packing.waiting)));
-  for (std::size_t i = 0; i < packing.position.size(); ++i)
-    grid.add({packing.position[i], packing.radius[i]});
+  for (std::size_t i = 0; i < packing.position.size(); ++i) grid.add({packing.position[i], packing.radius[i]});
   for (std::size_t k = 0; k < packing.around.position.size(); ++k)
     grid.add_obstacle({packing.around.position[k], packing.around.radius[k]});
   std::sort(packing.waiting.begin(), packing.waiting.end(),
             std::greater<>());  // the large ones need the best places
   std::vector<Ball> placed;
-  insert_at_random(grid, packing.region, {.tolerance = tolerance, .choices = 20, .tries = 1000, .pause = packing.pause, .tell = packing.tell}, random,
-                   packing.waiting, placed);
+  insert_at_random(grid, packing.region,
+                   {.tolerance = tolerance, .choices = 20, .tries = 1000, .pause = packing.pause, .tell = packing.tell},
+                   random, packing.waiting, placed);
   for (const Ball& ball : placed) {
     packing.position.push_back(ball.x);
     packing.radius.push_back(ball.r);
@@ -55,13 +54,14 @@ void rearrange(Packing& packing, int steps) {
 
 [[noreturn]] void refuse_waiting(const Packing& packing, Real tolerance, Real share) {
   std::ostringstream out;
-  out << packing.waiting.size() << " of " << packing.waiting.size() + packing.position.size() << " elements found no place, also not at "
-      << share << " of their size, with an overlap of at most " << tolerance
+  out << packing.waiting.size() << " of " << packing.waiting.size() + packing.position.size()
+      << " elements found no place, also not at " << share << " of their size, with an overlap of at most " << tolerance
       << " (R1 + R2): raise the overlap tolerance, or ask for fewer or smaller elements";
   throw PackingFailure(out.str());
 }
 
-/// Puts the waiting elements in as small as need be; returns the radii that they are to have, in the order of their rows.
+/// Puts the waiting elements in as small as need be; returns the radii that they are to have, in the order of their
+/// rows.
 std::vector<Real> place_small(Packing& packing, Real tolerance, Random& random) {
   constexpr Real smaller = 0.8, smallest = 0.1;
   std::vector<Real> wanted;
@@ -76,8 +76,8 @@ std::vector<Real> place_small(Packing& packing, Real tolerance, Random& random) 
   return wanted;
 }
 
-/// Where small elements stand already there is never a hole for a large one, so it goes in small, and grows while all push
-/// each other apart.
+/// Where small elements stand already there is never a hole for a large one, so it goes in small, and grows while all
+/// push each other apart.
 void grow_in(Packing& packing, Real tolerance, Random& random) {
   constexpr Real growth = 1.1;
   const std::size_t first = packing.radius.size();
@@ -105,9 +105,9 @@ void place_all(Packing& packing, Real tolerance) {
 
 [[noreturn]] void refuse_coordination(const Crowd& crowd, Real asked, bool bulk, Real reached, Real overlap) {
   std::ostringstream out;
-  out << "a coordination number of " << asked << (bulk ? " in the bulk" : "") << " cannot be reached with " << crowd.moving
-      << (crowd.moving == 1 ? " element" : " elements") << ": it is " << reached << " where they overlap by "
-      << 100 * overlap << " % of R1 + R2 on average; ask for a lower coordination number"
+  out << "a coordination number of " << asked << (bulk ? " in the bulk" : "") << " cannot be reached with "
+      << crowd.moving << (crowd.moving == 1 ? " element" : " elements") << ": it is " << reached
+      << " where they overlap by " << 100 * overlap << " % of R1 + R2 on average; ask for a lower coordination number"
       << (crowd.moving < 1000 ? ", or for more elements (those at the walls have fewer contacts)" : "");
   throw PackingFailure(out.str());
 }
@@ -117,8 +117,9 @@ Real coordination(const Crowd& crowd, Neighbours& neighbours, bool bulk) {
   if (!bulk) return coordination(crowd, neighbours);
   const std::vector<char> inside = bulk_of(crowd);
   if (std::find(inside.begin(), inside.end(), 1) == inside.end())
-    throw PackingFailure("no element is in the bulk, farther than 3 mean radii from walls and obstacles, so their contacts cannot be counted: "
-                         "count those of all elements, or ask for more elements");
+    throw PackingFailure(
+        "no element is in the bulk, farther than 3 mean radii from walls and obstacles, so their contacts cannot be "
+        "counted: count those of all elements, or ask for more elements");
   return coordination(crowd, neighbours, inside);
 }
 

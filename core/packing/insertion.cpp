@@ -117,10 +117,10 @@ bool find_place(const InsertionGrid& grid, const Region& region, const Insertion
   return found;
 }
 
-/// Tries each radius once, in turn. Where a ball overlaps what stands there already it will overlap it later too, so many
-/// tries are looked at together, by all threads; those that then seem free are looked at again, one after another.
-void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random, std::vector<Real>& radii,
-                   std::vector<Ball>& placed, int& failed) {
+/// Tries each radius once, in turn. Where a ball overlaps what stands there already it will overlap it later too, so
+/// many tries are looked at together, by all threads; those that then seem free are looked at again, one after another.
+void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
+                   std::vector<Real>& radii, std::vector<Ball>& placed, int& failed) {
   constexpr std::size_t block = 8192;
   std::vector<Ball> candidate;
   std::vector<char> free;
@@ -134,7 +134,8 @@ void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRul
       candidate.push_back({point_in(region, random_unit(random), r), r});
     }
     free.assign(count, 0);
-    each_shared(count, [&](std::size_t k) { free[k] = fits(candidate[k]); }, block);
+    each_shared(
+        count, [&](std::size_t k) { free[k] = fits(candidate[k]); }, block);
     for (std::size_t k = 0; k < count; ++k) {
       rule.pause();
       const bool found = failed < rule.tries && free[k] && fits(candidate[k]);
@@ -151,8 +152,8 @@ void try_each_once(InsertionGrid& grid, const Region& region, const InsertionRul
 }
 
 /// Tries each radius up to `patience` times, in turn.
-void try_each(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random, std::vector<Real>& radii,
-              std::vector<Ball>& placed, int& failed) {
+void try_each(InsertionGrid& grid, const Region& region, const InsertionRule& rule, Random& random,
+              std::vector<Real>& radii, std::vector<Ball>& placed, int& failed) {
   std::size_t kept = 0;
   for (const Real r : radii) {
     rule.pause();
@@ -180,7 +181,8 @@ void insert_at_random(InsertionGrid& grid, const Region& region, const Insertion
   int failed = 0;
   const bool once = rule.choices == 1 && rule.patience == 1;
   while (!radii.empty() && failed < rule.tries) {
-    rule.tell(std::to_string(placed.size()) + " elements placed, " + std::to_string(radii.size()) + " still to be placed");
+    rule.tell(std::to_string(placed.size()) + " elements placed, " + std::to_string(radii.size()) +
+              " still to be placed");
     (once ? try_each_once : try_each)(grid, region, rule, random, radii, placed, failed);
   }
 }

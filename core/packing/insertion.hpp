@@ -51,11 +51,11 @@ class InsertionGrid {
 };
 
 struct InsertionRule {
-  Real tolerance = 0;                   ///< largest overlap / (R1 + R2)
-  int choices = 1;                      ///< random places looked at for each element; the one with the most room is taken
-  int patience = 1;                     ///< goes of an element before the next one's turn
-  int tries = 20000;                    ///< ends after so many goes in a row found no place
-  Pause pause = never_paused;           ///< called at each element's turn
+  Real tolerance = 0;          ///< largest overlap / (R1 + R2)
+  int choices = 1;             ///< random places looked at for each element; the one with the most room is taken
+  int patience = 1;            ///< goes of an element before the next one's turn
+  int tries = 20000;           ///< ends after so many goes in a row found no place
+  Pause pause = never_paused;  ///< called at each element's turn
   Tell tell = [](const std::string&) {};
 };
 

@@ -41,25 +41,31 @@ Order bond_order(const Crowd& crowd) {
   const NeighbourList list = neighbours_of(pairs, crowd.ball.size());
   std::vector<Directions> directions(crowd.moving);
   std::vector<Real> own(crowd.moving, 0);
-  for_each(crowd.moving, [&](std::size_t i) {
-    for (const Index j : list.of(i)) {
-      const Vec3 d = crowd.ball[std::size_t(j)].x - crowd.ball[i].x;
-      if (std::size_t(j) < crowd.moving && d.norm() > 0) directions[i].push_back(d.normalized());
-    }
-    if (!directions[i].empty()) own[i] = mean_product(directions[i], directions[i]);
-  }, crowd.pause);
+  for_each(
+      crowd.moving,
+      [&](std::size_t i) {
+        for (const Index j : list.of(i)) {
+          const Vec3 d = crowd.ball[std::size_t(j)].x - crowd.ball[i].x;
+          if (std::size_t(j) < crowd.moving && d.norm() > 0) directions[i].push_back(d.normalized());
+        }
+        if (!directions[i].empty()) own[i] = mean_product(directions[i], directions[i]);
+      },
+      crowd.pause);
   std::vector<Count> counts(crowd.moving);
-  for_each(crowd.moving, [&](std::size_t i) {
-    int alike = 0;
-    for (const Index j : list.of(i)) {
-      if (std::size_t(j) >= crowd.moving || !(own[i] > 0 && own[j] > 0)) continue;
-      const Real correlation = mean_product(directions[i], directions[j]) / std::sqrt(own[i] * own[j]);
-      counts[i].pairs += 1;
-      counts[i].correlation += correlation;
-      alike += correlation > 0.7;
-    }
-    counts[i].crystalline += alike >= 7;
-  }, crowd.pause);
+  for_each(
+      crowd.moving,
+      [&](std::size_t i) {
+        int alike = 0;
+        for (const Index j : list.of(i)) {
+          if (std::size_t(j) >= crowd.moving || !(own[i] > 0 && own[j] > 0)) continue;
+          const Real correlation = mean_product(directions[i], directions[j]) / std::sqrt(own[i] * own[j]);
+          counts[i].pairs += 1;
+          counts[i].correlation += correlation;
+          alike += correlation > 0.7;
+        }
+        counts[i].crystalline += alike >= 7;
+      },
+      crowd.pause);
   const Count count = sum_in_blocks<Count>(crowd.moving, [&](std::size_t begin, std::size_t end, Count& c) {
     for (std::size_t i = begin; i < end; ++i) c += counts[i];
   });

@@ -1,10 +1,9 @@
 #pragma once
 // Filling a volume with elements in the paper's three steps (section 2.2.2), each a function on a Packing:
 //
-//   Packing packing = free_filling(request);   // at random, without interpenetration, until nothing more
-//   fits forced_filling(packing, {...});            // the rest with interpenetration, re-arranged, until Z
-//   is reached relaxation(packing, {...});                // interpenetration down to round-off, elements
-//   inside the walls
+//   Packing packing = free_filling(request);  // at random, without interpenetration, until nothing more fits
+//   forced_filling(packing, {...});           // the rest with interpenetration, re-arranged, until Z is reached
+//   relaxation(packing, {...});               // interpenetration down to round-off, elements inside the walls
 //
 // The method and its measured figures: docs/theory/packing.md. All results are the same to the bit for any
 // number of threads. Lengths are in any one unit.

@@ -15,8 +15,7 @@ constexpr int most_rounds = 60;
 constexpr int gentle_rounds = 3;
 constexpr Real gentle_share = 0.5;
 constexpr Damping damping{.overlapping = 1e-3, .open = 2e-3};
-constexpr Real radius_compliance =
-    0.2;  // radii give way less than places; recorded: the least iterations near 0.1-0.3
+constexpr Real radius_compliance = 0.2;  // radii give way less than places; recorded: the least iterations near 0.1-0.3
 
 /// A pair of elements, or an element and -1 - wall.
 struct Key {
@@ -125,7 +124,8 @@ std::vector<Key> closable(const std::vector<Contact>& contacts, const std::vecto
 
 }  // namespace
 
-Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap, const std::function<void(Real)>& told) {
+Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap,
+                  const std::function<void(Real)>& told) {
   Projected result;
   std::vector<Key> known = overlapping(crowd, neighbours.of(crowd)).keys;
   std::sort(known.begin(), known.end());
@@ -139,8 +139,7 @@ Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& boun
     if (found.largest <= overlap || result.rounds == most_rounds) return result;
     std::sort(found.keys.begin(), found.keys.end());
     std::vector<Key> keys;
-    std::set_union(known.begin(), known.end(), found.keys.begin(), found.keys.end(),
-                   std::back_inserter(keys));
+    std::set_union(known.begin(), known.end(), found.keys.begin(), found.keys.end(), std::back_inserter(keys));
     std::vector<Contact> contacts(keys.size());
     for_each(keys.size(), [&](std::size_t e) { contacts[e] = contact_of(crowd, keys[e]); });
     ContactEquations equations(crowd.moving, contacts, allowance.compliance());

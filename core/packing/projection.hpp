@@ -25,6 +25,7 @@ struct Projected {
 /// joins the equations; a contact that opens and cannot be closed, since too many others hold its elements,
 /// is given up.
 /// `told` hears the largest overlap before each round.
-Projected project(Crowd&, Neighbours&, const RadiusBounds&, Real overlap, const std::function<void(Real)>& told = [](Real) {});
+Projected project(
+    Crowd&, Neighbours&, const RadiusBounds&, Real overlap, const std::function<void(Real)>& told = [](Real) {});
 
 }  // namespace beadwork::packing

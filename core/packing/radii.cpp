@@ -33,8 +33,8 @@ Real quantile(const Dispersion& d, Real u) {
 void check(const Dispersion& d) {
   if (!(d.spread >= 0 && d.spread < 1))
     throw std::invalid_argument(
-        "the spread of the radii must be at least 0 and below 1 (radii lie between 1 - spread "
-        "and 1 + spread times their mean), got " +
+        "the spread of the radii must be at least 0 and below 1 (radii lie between 1 - spread and 1 + spread times "
+        "their mean), got " +
         std::to_string(d.spread));
   if (d.law == RadiusLaw::truncated_gaussian && !(std::isfinite(d.deviation) && d.deviation > 0))
     throw std::invalid_argument("the standard deviation of the radii must be positive, got " +
@@ -76,8 +76,7 @@ Real kolmogorov_distance(const Dispersion& d, std::span<const Real> radius) {
   Real distance = 0;
   for (std::size_t k = 0; k < r.size(); ++k) {
     const Real F = cumulative(d, r[k] / mean);
-    distance = std::max(
-        {distance, std::abs(F - Real(k) / Real(r.size())), std::abs(F - Real(k + 1) / Real(r.size()))});
+    distance = std::max({distance, std::abs(F - Real(k) / Real(r.size())), std::abs(F - Real(k + 1) / Real(r.size()))});
   }
   return distance;
 }

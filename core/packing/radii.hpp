@@ -25,7 +25,8 @@ void check(const Dispersion&);
 
 /// `count` radii with mean 1, in the order drawn. The sample is stratified: one radius in each of `count`
 /// equally likely classes, shuffled; so mean and histogram of a small specimen are those of the law.
-std::vector<Real> draw_radii(const Dispersion&, std::size_t count, std::uint64_t seed, const Pause& pause = never_paused);
+std::vector<Real> draw_radii(const Dispersion&, std::size_t count, std::uint64_t seed,
+                             const Pause& pause = never_paused);
 
 /// Share of radii below r (mean 1).
 Real cumulative(const Dispersion&, Real r);

@@ -27,15 +27,15 @@ Mat3 frame_of(const Vec3& axis) {
 
 void check(const Box& b) {
   if (!b.low.allFinite() || !b.high.allFinite() || !((b.high - b.low).minCoeff() > 0))
-    throw std::invalid_argument(
-        "the box to be filled is empty: each of its three extents must be positive, got " + describe(b));
+    throw std::invalid_argument("the box to be filled is empty: each of its three extents must be positive, got " +
+                                describe(b));
 }
 
 void check(const Cylinder& c) {
   if (!c.from.allFinite() || !c.to.allFinite() || !std::isfinite(c.radius) || !(c.radius > 0) ||
       !((c.to - c.from).norm() > 0))
-    throw std::invalid_argument(
-        "the cylinder to be filled is empty: its length and radius must be positive, got " + describe(c));
+    throw std::invalid_argument("the cylinder to be filled is empty: its length and radius must be positive, got " +
+                                describe(c));
 }
 
 }  // namespace
@@ -91,8 +91,7 @@ Vec3 point_in(const Region& region, const Vec3& unit, Real margin) {
   const Real r = (c.radius - margin) * std::sqrt(unit[0]);
   const Real angle = 2 * pi * unit[1];
   const Real along = margin + ((c.to - c.from).norm() - 2 * margin) * unit[2];
-  return c.from + r * std::cos(angle) * frame.col(0) + r * std::sin(angle) * frame.col(1) +
-         along * frame.col(2);
+  return c.from + r * std::cos(angle) * frame.col(0) + r * std::sin(angle) * frame.col(1) + along * frame.col(2);
 }
 
 Region shrunk(const Region& region, Real margin) {
@@ -106,8 +105,7 @@ Region shrunk(const Region& region, Real margin) {
 }
 
 Region rescaled(const Region& region, const Vec3& origin, Real unit) {
-  if (const auto* box = std::get_if<Box>(&region))
-    return Box{(box->low - origin) / unit, (box->high - origin) / unit};
+  if (const auto* box = std::get_if<Box>(&region)) return Box{(box->low - origin) / unit, (box->high - origin) / unit};
   const auto& c = std::get<Cylinder>(region);
   return Cylinder{(c.from - origin) / unit, (c.to - origin) / unit, c.radius / unit};
 }
@@ -155,11 +153,13 @@ void check(const Region& region) {
   const Box box = bounds(region);
   const Real narrow = inradius(region), wide = (box.high - box.low).maxCoeff();
   if (!(narrow >= smallest && wide <= largest))
-    throw std::invalid_argument("the extents of the region to be filled must lie between 1e-50 and 1e50, got " + describe(region));
+    throw std::invalid_argument("the extents of the region to be filled must lie between 1e-50 and 1e50, got " +
+                                describe(region));
   const Real away = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
   if (away > farthest * std::max(narrow, wide))
-    throw std::invalid_argument("the region to be filled lies so far from the origin that the places of its elements would be rounded: " +
-                                describe(region) + "; move it to the origin");
+    throw std::invalid_argument(
+        "the region to be filled lies so far from the origin that the places of its elements would be rounded: " +
+        describe(region) + "; move it to the origin");
 }
 
 }  // namespace beadwork::packing

@@ -38,8 +38,7 @@ Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
                  for (const Index j : list.of(i)) {
                    const Ball& b = crowd.ball[std::size_t(j)];
                    const Real overlap = a.r + b.r - (b.x - a.x).norm();
-                   largest.value =
-                       std::max(largest.value, overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
+                   largest.value = std::max(largest.value, overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
                  }
                }
              })
@@ -80,9 +79,11 @@ Real coordination_with_gap(Crowd crowd) {
 void warn_of_lost_contacts(Packing& packing, const Crowd& crowd, Real before) {
   const Real after = coordination_with_gap(crowd);
   if (after < before - 0.05)
-    warn(packing, "relaxation lowered the coordination number from ", before, " to ", after, " (gaps up to .001 counted); ",
+    warn(packing, "relaxation lowered the coordination number from ", before, " to ", after,
+         " (gaps up to .001 counted); ",
          packing.dispersion.spread > wide_spread
-             ? "where radii spread so wide, small elements come loose between large ones: let the radii change more, or narrow the spread"
+             ? "where radii spread so wide, small elements come loose between large ones: let the radii change more, "
+               "or narrow the spread"
              : "let the radii change more, widen the spread, or ask for less to begin with");
 }
 
@@ -101,8 +102,8 @@ void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighb
   if (left <= goal) return;
   scale_radii(crowd, 1 - left);
   if (left > 1e-3)
-    warn(packing, "relaxation left an overlap of ", left,
-         " (R1 + R2): all radii were reduced by that share, which ", "opened contacts");
+    warn(packing, "relaxation left an overlap of ", left, " (R1 + R2): all radii were reduced by that share, which ",
+         "opened contacts");
 }
 
 }  // namespace
@@ -110,8 +111,7 @@ void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighb
 void relaxation(Packing& packing, const Relaxation& rule) {
   const auto start = std::chrono::steady_clock::now();
   check(rule);
-  if (packing.position.empty())
-    throw std::invalid_argument("there are no elements to relax: free filling comes first");
+  if (packing.position.empty()) throw std::invalid_argument("there are no elements to relax: free filling comes first");
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
   Neighbours neighbours(skin);
@@ -119,7 +119,8 @@ void relaxation(Packing& packing, const Relaxation& rule) {
   const Real spread = packing.dispersion.spread;
   const Real change = std::min(rule.radius_change, spread / 5);
   if (change > 0)
-    project(crowd, neighbours, {1 - spread, 1 + spread, change}, rule.overlap / 2, [&](Real largest) { tell_of_overlap(packing.tell, "largest", largest); });
+    project(crowd, neighbours, {1 - spread, 1 + spread, change}, rule.overlap / 2,
+            [&](Real largest) { tell_of_overlap(packing.tell, "largest", largest); });
   else
     decompress(crowd, neighbours, packing.tell);
   shrink_away_last_overlap(packing, crowd, neighbours, rule.overlap / 2);

@@ -61,8 +61,7 @@ std::vector<char> rattlers_of(const Crowd& crowd, const std::vector<Pair>& conta
 /// Mean number of contacts of the elements that `counts` accepts, with those that `with` accepts and with
 /// obstacles.
 template <class Counts, class With>
-Real mean_contacts(const Crowd& crowd, const std::vector<Pair>& contacts, const Counts& counts,
-                   const With& with) {
+Real mean_contacts(const Crowd& crowd, const std::vector<Pair>& contacts, const Counts& counts, const With& with) {
   std::size_t elements = 0, ends = 0;
   for (std::size_t i = 0; i < crowd.moving; ++i) elements += counts(i);
   const auto accepted = [&](std::size_t i) { return i >= crowd.moving || with(i); };
@@ -74,8 +73,8 @@ Real mean_contacts(const Crowd& crowd, const std::vector<Pair>& contacts, const 
   return elements ? Real(ends) / Real(elements) : 0;
 }
 
-Coordination coordination_of(const Crowd& crowd, const std::vector<Pair>& contacts,
-                             const std::vector<char>& loose, const std::vector<char>& bulk) {
+Coordination coordination_of(const Crowd& crowd, const std::vector<Pair>& contacts, const std::vector<char>& loose,
+                             const std::vector<char>& bulk) {
   const auto any = [](std::size_t) { return true; };
   const auto held = [&](std::size_t i) { return !loose[i]; };
   const auto inside = [&](std::size_t i) { return bulk[i] != 0; };
@@ -156,8 +155,7 @@ Real density_in_bulk(const Packing& packing, Real margin) {
   if (packing.radius.empty() || margin >= inradius(packing.region)) return 0;
   constexpr std::uint64_t points = 300000;
   InsertionGrid elements(packing.region, *std::max_element(packing.radius.begin(), packing.radius.end()));
-  for (std::size_t i = 0; i < packing.radius.size(); ++i)
-    elements.add({packing.position[i], packing.radius[i]});
+  for (std::size_t i = 0; i < packing.radius.size(); ++i) elements.add({packing.position[i], packing.radius[i]});
   packing.pause();
   InsertionGrid obstacles(packing.region, std::max(margin, inradius(packing.region) / 20));
   for (std::size_t k = 0; k < packing.around.radius.size(); ++k)
@@ -167,14 +165,15 @@ Real density_in_bulk(const Packing& packing, Real margin) {
     std::uint64_t counted = 0, filled = 0;
     Hits& operator+=(const Hits& more) { return counted += more.counted, filled += more.filled, *this; }
   };
-  const auto hits = sum_shared<Hits>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, Hits& sum) {
-    for (std::uint64_t k = begin; k < end; ++k) {
-      const Vec3 x = point_in(inner, even_point(k));
-      if (!obstacles.clear_of_obstacles(x, margin)) continue;
-      ++sum.counted;
-      sum.filled += elements.clearance({x, 0}, 0) < 0;
-    }
-  });
+  const auto hits =
+      sum_shared<Hits>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, Hits& sum) {
+        for (std::uint64_t k = begin; k < end; ++k) {
+          const Vec3 x = point_in(inner, even_point(k));
+          if (!obstacles.clear_of_obstacles(x, margin)) continue;
+          ++sum.counted;
+          sum.filled += elements.clearance({x, 0}, 0) < 0;
+        }
+      });
   return hits.counted ? Real(hits.filled) / Real(hits.counted) : 0;
 }
 
@@ -198,8 +197,7 @@ PackingReport report(const Packing& packing, Real tolerance) {
   report_radii(packing, r);
   std::vector<Index> order;
   const Crowd crowd = crowd_of(packing, order);
-  const auto near =
-      contacts_within(crowd, near_pairs(crowd, tolerance * 2 * r.max_radius / r.mean_radius), tolerance);
+  const auto near = contacts_within(crowd, near_pairs(crowd, tolerance * 2 * r.max_radius / r.mean_radius), tolerance);
   const auto touching = contacts_within(crowd, near, touching_gap);
   const auto bulk = bulk_of(crowd);
   const auto loose = rattlers_of(crowd, touching, touching_gap);

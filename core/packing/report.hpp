@@ -14,9 +14,8 @@ namespace beadwork::packing {
 /// Contacts of an element with other elements (obstacles included, walls not), mean over the elements.
 struct Coordination {
   Real all = 0;
-  Real without_rattlers =
-      0;          ///< rattlers: elements with fewer than four contacts, walls included, found repeatedly
-  Real bulk = 0;  ///< over the elements farther than 3 mean radii from the walls
+  Real without_rattlers = 0;  ///< rattlers: elements with fewer than four contacts, walls included, found repeatedly
+  Real bulk = 0;              ///< over the elements farther than 3 mean radii from the walls
 };
 
 struct PackingReport {

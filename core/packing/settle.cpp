@@ -61,8 +61,7 @@ class Fire {
     keep_ = uphill_ ? 0 : 1 - mixing_;
   }
   void move(Vec3& x, Vec3& v, const Vec3& force) const {
-    if (force.isZero(0))
-      v = zero<Vec3>();  // a loose element would fly about in its cage and spoil the neighbour lists
+    if (force.isZero(0)) v = zero<Vec3>();  // a loose element would fly about in its cage and spoil the neighbour lists
     if (uphill_) x -= 0.5 * step_ * v;
     v = keep_ * v + (turn_ + step_) * force;
     x += step_ * v;
@@ -94,17 +93,15 @@ Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residua
     });
     ++settled.steps;
     settled.pressure = sums.load / Real(crowd.moving);
-    settled.residual =
-        sums.load > 0 ? std::sqrt(sums.force2 / Real(crowd.moving)) / (sums.load / sums.contacts) : 0;
+    settled.residual = sums.load > 0 ? std::sqrt(sums.force2 / Real(crowd.moving)) / (sums.load / sums.contacts) : 0;
     if (settled.residual <= residual || settled.pressure <= pressure) break;
     fire.judge(sums);
-    const Largest worst =
-        sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& w) {
-          for (std::size_t i = begin; i < end; ++i) {
-            fire.move(crowd.ball[i].x, velocity[i], force[i]);
-            w.value = std::max(w.value, neighbours.change(crowd, i));
-          }
-        });
+    const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& w) {
+      for (std::size_t i = begin; i < end; ++i) {
+        fire.move(crowd.ball[i].x, velocity[i], force[i]);
+        w.value = std::max(w.value, neighbours.change(crowd, i));
+      }
+    });
     list = &neighbours.after(crowd, worst.value);
   }
   return settled;

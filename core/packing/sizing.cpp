@@ -35,11 +35,12 @@ Real share_clear(const Region& region, const Obstacles& around, Real margin) {
   constexpr std::uint64_t points = 100000;
   // Cells need not be as small as the margin where the region is large.
   InsertionGrid grid(region, std::max(margin, inradius(region) / 20));
-  for (std::size_t k = 0; k < around.position.size(); ++k)
-    grid.add_obstacle({around.position[k], around.radius[k]});
-  const auto clear = sum_shared<std::uint64_t>(points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, std::uint64_t& sum) {
-    for (std::uint64_t k = begin; k < end; ++k) sum += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
-  });
+  for (std::size_t k = 0; k < around.position.size(); ++k) grid.add_obstacle({around.position[k], around.radius[k]});
+  const auto clear = sum_shared<std::uint64_t>(
+      points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, std::uint64_t& sum) {
+        for (std::uint64_t k = begin; k < end; ++k)
+          sum += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
+      });
   return Real(clear) / Real(points);
 }
 
@@ -47,8 +48,8 @@ void check(const Request& q) {
   check(q.region);
   check(q.dispersion);
   if (q.count && q.mean_radius) {
-    const Real phi = Real(*q.count) * 4 / 3 * std::numbers::pi * std::pow(*q.mean_radius, 3) *
-                     mean_cube(q.dispersion) / volume(q.region);
+    const Real phi = Real(*q.count) * 4 / 3 * std::numbers::pi * std::pow(*q.mean_radius, 3) * mean_cube(q.dispersion) /
+                     volume(q.region);
     refuse(text("count and mean radius are both given: together they ask for a volume fraction of ", phi,
                 ", while a random packing ends near 0.64; give one of the two, the other follows"));
   }
@@ -59,8 +60,7 @@ void check(const Request& q) {
   if (q.mean_radius && !(std::isfinite(*q.mean_radius) && *q.mean_radius > 0))
     refuse(text("the mean radius must be positive, got ", *q.mean_radius));
   if (q.tries < 1) refuse(text("the number of tries must be at least 1, got ", q.tries));
-  if (q.around.position.size() != q.around.radius.size())
-    refuse("obstacles need one radius for each position");
+  if (q.around.position.size() != q.around.radius.size()) refuse("obstacles need one radius for each position");
   for (std::size_t k = 0; k < q.around.position.size(); ++k)
     if (!q.around.position[k].allFinite() || !(std::isfinite(q.around.radius[k]) && q.around.radius[k] >= 0))
       refuse(text("obstacle ", k, " has a position or radius that is negative or not finite"));
@@ -76,11 +76,10 @@ Sizing from_mean_radius(const Request& q) {
   const Real room = effective_volume(q.region, q.around, empty_layer * R);
   const Real count = bulk_density * room / (4.0 / 3 * std::numbers::pi * R * R * R * mean_cube(q.dispersion));
   if (count > most_elements)
-    refuse(text("elements of mean radius ", R, " would number ", count,
-                "; at most ", most_elements, " are possible: enlarge the radius"));
+    refuse(text("elements of mean radius ", R, " would number ", count, "; at most ", most_elements,
+                " are possible: enlarge the radius"));
   if (count < 0.5)
-    throw PackingFailure(
-        "the obstacles leave no room for an element: remove some, or make the mean radius smaller");
+    throw PackingFailure("the obstacles leave no room for an element: remove some, or make the mean radius smaller");
   return {static_cast<std::size_t>(std::lround(count)), R};
 }
 
@@ -94,14 +93,14 @@ Sizing from_count(const Request& q) {
     R = std::min(R, largest_fitting(q));
     if (std::abs(R - before) < 1e-3 * before) break;
   }
-  if (!(R > 0))
-    throw PackingFailure("the obstacles leave no room for an element: remove some, or enlarge the region");
+  if (!(R > 0)) throw PackingFailure("the obstacles leave no room for an element: remove some, or enlarge the region");
   const Real solid = count * 4 / 3 * std::numbers::pi * R * R * R * mean_cube(q.dispersion);
   const Real share = solid / free_volume(q.region, q.around);
   constexpr Real so_few = 0.01;
   if (share < so_few)
-    throw PackingFailure(text("the region is too thin for so few elements: ", *q.count, " of them, no larger than fits between its walls (mean radius ",
-                              R, "), take up a share of ", share, " of it; make the region thicker, or ask for about ",
+    throw PackingFailure(text("the region is too thin for so few elements: ", *q.count,
+                              " of them, no larger than fits between its walls (mean radius ", R,
+                              "), take up a share of ", share, " of it; make the region thicker, or ask for about ",
                               count * bulk_density / share, " elements"));
   return {static_cast<std::size_t>(*q.count), R};
 }
@@ -114,14 +113,13 @@ Real effective_volume(const Region& region, const Obstacles& around, Real layer)
   return volume(inner) * (around.position.empty() ? 1 : share_clear(inner, around, layer));
 }
 
-Real free_volume(const Region& region, const Obstacles& around) {
-  return effective_volume(region, around, 0);
-}
+Real free_volume(const Region& region, const Obstacles& around) { return effective_volume(region, around, 0); }
 
 Sizing sizing_of(const Request& q) {
   check(q);
   const Sizing sizing = q.count ? from_count(q) : from_mean_radius(q);
-  if (const std::string why = why_no_memory(Real(sizing.count), "elements", bytes_of_element); !why.empty()) throw PackingFailure(why);
+  if (const std::string why = why_no_memory(Real(sizing.count), "elements", bytes_of_element); !why.empty())
+    throw PackingFailure(why);
   return sizing;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a law sees of the bonds at hand: the numbers of their columns, and their two ends, read from the lines of the elements, to which
-// their forces are added.
+// What a law sees of the bonds at hand: the numbers of their columns, and their two ends, read from the lines of the
+// elements, to which their forces are added.
 
 #include <algorithm>
 #include <cstring>
@@ -104,11 +104,13 @@ struct Several {
   }
 
  private:
-  [[gnu::always_inline]] Pack<W> numbers(const std::byte* base) const { return Pack<W>::load(reinterpret_cast<const Real*>(base) + row); }
+  [[gnu::always_inline]] Pack<W> numbers(const std::byte* base) const {
+    return Pack<W>::load(reinterpret_cast<const Real*>(base) + row);
+  }
 };
 
-/// The lines of the elements that the loop reads and adds to: position and orientation share one, velocity and spin another,
-/// force and torque a third.
+/// The lines of the elements that the loop reads and adds to: position and orientation share one, velocity and spin
+/// another, force and torque a third.
 class ElementLines {
  public:
   static ElementLines of(const Domain& domain) {
@@ -133,7 +135,9 @@ class ElementLines {
   /// What a law says of itself must fit what its plugin asked for. Throws std::logic_error.
   template <class Law>
   void require() const {
-    const auto beside = [](const std::byte* first, const std::byte* second) { return first && second == first + 3 * sizeof(Real); };
+    const auto beside = [](const std::byte* first, const std::byte* second) {
+      return first && second == first + 3 * sizeof(Real);
+    };
     if (!position_ || !force_) throw std::logic_error("a bond law reads position and adds to force");
     if (torque_ && !beside(force_, torque_)) throw std::logic_error("force and torque share a line, and begin it");
     if (Law::turns && !(beside(position_, orientation_) && torque_))
@@ -224,13 +228,15 @@ class ElementLines {
     const Vec<Pack<W>>& f = w.force;
     if constexpr (turns && W == 8) {  // whole lines: fx fy fz tx ty tz - -
       const Pack<W> nothing(-0.0);    // x + (-0.0) is x, whatever the sign of a zero
-      const auto line1 = pack::rows_of_eight<W>({-f[0], -f[1], -f[2], w.torque1[0], w.torque1[1], w.torque1[2], nothing, nothing});
-      const auto line2 = pack::rows_of_eight<W>({f[0], f[1], f[2], w.torque2[0], w.torque2[1], w.torque2[2], nothing, nothing});
+      const auto line1 =
+          pack::rows_of_eight<W>({-f[0], -f[1], -f[2], w.torque1[0], w.torque1[1], w.torque1[2], nothing, nothing});
+      const auto line2 =
+          pack::rows_of_eight<W>({f[0], f[1], f[2], w.torque2[0], w.torque2[1], w.torque2[2], nothing, nothing});
       for (std::size_t lane = 0; lane < W; ++lane) {
         add_to(at(force_, i[lane], load_), line1[lane]);
         add_to(at(force_, k[lane], load_), line2[lane]);
       }
-    } else if constexpr (turns) {   // fx fy fz tx | ty tz - -
+    } else if constexpr (turns) {  // fx fy fz tx | ty tz - -
       const Pack<W> nothing(-0.0);
       const auto low1 = pack::rows<W>({-f[0], -f[1], -f[2], w.torque1[0]});
       const auto low2 = pack::rows<W>({f[0], f[1], f[2], w.torque2[0]});
@@ -265,25 +271,32 @@ class ElementLines {
   [[gnu::always_inline]] static Real* at(std::byte* base, Index row, std::size_t stride) {
     return reinterpret_cast<Real*>(base + static_cast<std::size_t>(row) * stride);
   }
-  /// x2 - x1 where nothing else of the two lines is wanted: subtracted before it is transposed, so that one transposition does.
+  /// x2 - x1 where nothing else of the two lines is wanted: subtracted before it is transposed, so that one
+  /// transposition does.
   template <int W>
   [[gnu::always_inline]] Vec<Pack<W>> apart(const Index* i, const Index* j) const {
-    const auto lane = [&](int k) { return Quad::load(at(position_, j[k], pose_)) - Quad::load(at(position_, i[k], pose_)); };
+    const auto lane = [&](int k) {
+      return Quad::load(at(position_, j[k], pose_)) - Quad::load(at(position_, i[k], pose_));
+    };
     std::array<Pack<W>, 4> rows;
-    for (int k = 0; k < 4; ++k) rows[static_cast<std::size_t>(k)] = pack::join<W>(lane(k), W == 4 ? Quad(0) : lane(k + 4));
+    for (int k = 0; k < 4; ++k)
+      rows[static_cast<std::size_t>(k)] = pack::join<W>(lane(k), W == 4 ? Quad(0) : lane(k + 4));
     const auto d = pack::transpose<W>(rows);
     return {d[0], d[1], d[2]};
   }
 
   template <int W>
-  [[gnu::always_inline]] static void add_to(Real* line, const Pack<W>& low) { (Pack<W>::load(line) + low).store(line); }
+  [[gnu::always_inline]] static void add_to(Real* line, const Pack<W>& low) {
+    (Pack<W>::load(line) + low).store(line);
+  }
   [[gnu::always_inline]] static void take_from(Real* line, const Quad& low) { (Quad::load(line) - low).store(line); }
   [[gnu::always_inline]] static void add_to(Real* line, const Quad& low, const Quad& high) {
     add_to(line, low);
     add_to(line + 4, high);
   }
 
-  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr, *torque_ = nullptr;
+  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr,
+            *torque_ = nullptr;
   std::size_t pose_ = 0, motion_ = 0, load_ = 0;
   bool far_ = false;
   static constexpr std::size_t near = 2 << 20;  // bytes of places

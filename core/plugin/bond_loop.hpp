@@ -5,23 +5,25 @@
 //   template <Pass pass, class At, class T> Wrench<T> act(const At& at, const Ends<T>& ends) const;
 //   template <class At, class T> T stored(const At& at, const Ends<T>& ends) const;      // recoverable energy [J]
 //   template <class At> auto dissipated(const At& at) const;                              // if it takes any [J]
-//   Wrench<Real> ended(const One& at, const Ends<Real>& ends) const;                      // if forces end abruptly (BondLaw::end)
+// if forces end abruptly (BondLaw::end)
+//   Wrench<Real> ended(const One& at, const Ends<Real>& ends) const;
 //
-// `Ends<T>` has how far the ends are apart. Only a law that says so sees more, and names what it sees: with `turns` it takes
-// `TurningEnds<T>`, with
+// `Ends<T>` has how far the ends are apart. Only a law that says so sees more, and names what it sees: with `turns` it
+// takes `TurningEnds<T>`, with
 //
 //   static constexpr bool moves = true;    // reads velocities, and spins where it turns
 //
-// `MovingEnds<T>` or `TurningMovingEnds<T>`. The velocities are those of the step whose forces are asked for. Such a law says what it takes:
+// `MovingEnds<T>` or `TurningMovingEnds<T>`. The velocities are those of the step whose forces are asked for. Such a
+// law says what it takes:
 //
 //   template <class At, class T> T power(const At& at, const MovingEnds<T>& ends) const;  // that its damping takes [W]
 //
-// `At` stands for the bonds at hand, one or as many as a pack has lanes: at(column) loads their numbers, at.store(column,
-// value) writes them, at.flag(mask) tells the loop that something changed for good. The law never branches on a T. Numbers
-// of the law itself, the same for all bonds, are Real and become a T where they are used.
+// `At` stands for the bonds at hand, one or as many as a pack has lanes: at(column) loads their numbers,
+// at.store(column, value) writes them, at.flag(mask) tells the loop that something changed for good. The law never
+// branches on a T. Numbers of the law itself, the same for all bonds, are Real and become a T where they are used.
 //
-// A law that can act in single precision too does so in two strokes: how the second end lies against where the bond at rest would
-// have it, found in double, and what follows from that, in which no large number is taken from another
+// A law that can act in single precision too does so in two strokes: how the second end lies against where the bond at
+// rest would have it, found in double, and what follows from that, in which no large number is taken from another
 // (docs/decisions/mixed-precision.md):
 //
 //   template <class At, class T> BeamShift<T> shift(const At& at, const Ends<T>& ends) const;
@@ -40,8 +42,8 @@ namespace beadwork {
 
 namespace bond_loop {
 
-/// Bonds whose second ends are fetched while those before them are worked on: first ends come in order, second ends do not, and a
-/// processor does not see as far ahead as the next pack.
+/// Bonds whose second ends are fetched while those before them are worked on: first ends come in order, second ends do
+/// not, and a processor does not see as far ahead as the next pack.
 inline constexpr Index ahead = 32;
 
 /// The bonds of a chunk, in packs as far as they fill them.
@@ -58,10 +60,12 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
     constexpr int W = pack_width;
     for (; b + W <= chunk.live_end; b += W) {
       if (e.far() && b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead);
-      e.add<Law::turns, W>(first + b, target + b, l.template act<pass>(Several<W>{b, &flagged}, e.ends<Law, W>(first + b, second + b)));
+      e.add<Law::turns, W>(first + b, target + b,
+                           l.template act<pass>(Several<W>{b, &flagged}, e.ends<Law, W>(first + b, second + b)));
     }
   }
-  for (; b < chunk.live_end; ++b) e.add<Law::turns>(first[b], target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law>(first[b], second[b])));
+  for (; b < chunk.live_end; ++b)
+    e.add<Law::turns>(first[b], target[b], l.template act<pass>(One{b, &flagged}, e.ends<Law>(first[b], second[b])));
   return flagged;
 }
 
@@ -81,7 +85,8 @@ bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines
     for (; b + 2 * W <= chunk.live_end; b += 2 * W) {
       const Several<W> low{b, &flagged}, high{b + W, &flagged};
       if (e.far() && b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead);
-      const auto shift = narrow(l.shift(low, e.ends<Law, W>(first + b, second + b)), l.shift(high, e.ends<Law, W>(first + b + W, second + b + W)));
+      const auto shift = narrow(l.shift(low, e.ends<Law, W>(first + b, second + b)),
+                                l.shift(high, e.ends<Law, W>(first + b + W, second + b + W)));
       const auto wrench = l.template act<pass>(SeveralSingle<W>{low, high}, shift);
       e.add<Law::turns, W>(first + b, target + b, widen<false>(wrench));
       e.add<Law::turns, W>(first + b + W, target + b + W, widen<true>(wrench));
@@ -89,7 +94,9 @@ bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines
   }
   for (; b < chunk.live_end; ++b) {
     const One one{b, &flagged};
-    e.add<Law::turns>(first[b], target[b], widen(l.template act<pass>(OneSingle{one}, narrow(l.shift(one, e.ends<Law>(first[b], second[b]))))));
+    e.add<Law::turns>(
+        first[b], target[b],
+        widen(l.template act<pass>(OneSingle{one}, narrow(l.shift(one, e.ends<Law>(first[b], second[b]))))));
   }
   return flagged;
 }
@@ -136,8 +143,8 @@ class MovingBondLaw : public BondLaw {
   Matrix12 damping(const Domain& domain, const BondTable& table, Index row) const override = 0;
 };
 
-/// A bond law whose loop is the core's. The plugin builds the law as a value, with its columns, in `law()`; where the deck
-/// chooses among several laws, each is a loop of its own.
+/// A bond law whose loop is the core's. The plugin builds the law as a value, with its columns, in `law()`; where the
+/// deck chooses among several laws, each is a loop of its own.
 template <class... Laws>
 class BondLawOf : public std::conditional_t<(beadwork::moves<Laws>() || ...), MovingBondLaw, BondLaw> {
  public:
@@ -146,8 +153,11 @@ class BondLawOf : public std::conditional_t<(beadwork::moves<Laws>() || ...), Mo
   void act(Domain& domain, BondTable& table, const Evaluation& how) final {
     const auto flagged = std::visit(
         [&](const auto& value) {
-          if (how.settle) return how.sections ? run<true, true>(value, table, domain, how) : run<true, false>(value, table, domain, how);
-          return how.sections ? run<false, true>(value, table, domain, how) : run<false, false>(value, table, domain, how);
+          if (how.settle)
+            return how.sections ? run<true, true>(value, table, domain, how)
+                                : run<true, false>(value, table, domain, how);
+          return how.sections ? run<false, true>(value, table, domain, how)
+                              : run<false, false>(value, table, domain, how);
         },
         law());
     events_.clear();

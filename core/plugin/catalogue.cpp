@@ -21,9 +21,11 @@ std::vector<fs::path> libraries_in(const fs::path& place) {
   std::error_code error;
   if (!fs::is_directory(place, error)) return {place};
   std::vector<fs::path> found;
-  for (auto file = fs::directory_iterator(place, error); !error && file != fs::directory_iterator(); file.increment(error))
+  for (auto file = fs::directory_iterator(place, error); !error && file != fs::directory_iterator();
+       file.increment(error))
     if (file->path().extension() == ".so") found.push_back(file->path());
-  if (error) throw LibraryFailure(fmt::format("cannot look for plugin libraries in {}: {}", place.string(), error.message()));
+  if (error)
+    throw LibraryFailure(fmt::format("cannot look for plugin libraries in {}: {}", place.string(), error.message()));
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -59,7 +61,8 @@ Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
 
 void Catalogue::add(Library library) {
   for (const PluginEntry& entry : library.entries) {
-    const auto [there, fresh] = entries_.try_emplace({entry.kind, entry.tag}, Place{entry, library.path, library.named});
+    const auto [there, fresh] =
+        entries_.try_emplace({entry.kind, entry.tag}, Place{entry, library.path, library.named});
     if (!fresh)
       throw LibraryFailure(fmt::format("<{}> <{}> is in two plugin libraries: {} and {}. Remove or rename one of them",
                                        kind_name(entry.kind), entry.tag, there->second.library.string(),
@@ -79,7 +82,8 @@ std::unique_ptr<Plugin> Catalogue::make(Kind kind, const std::string& tag, const
   try {
     return found->make();
   } catch (...) {
-    blame(fmt::format("{}error: plugin {}.{} of {} failed in its constructor", at.empty() ? "" : at + ": ", kind_name(kind), tag, library_of(kind, tag)));
+    blame(fmt::format("{}error: plugin {}.{} of {} failed in its constructor", at.empty() ? "" : at + ": ",
+                      kind_name(kind), tag, library_of(kind, tag)));
   }
 }
 

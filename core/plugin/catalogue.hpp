@@ -30,7 +30,8 @@ class Catalogue {
   /// The instruction set of the variants that were opened, baseline if none was.
   const std::string& instructions() const { return instructions_; }
   std::string library_of(Kind kind, const std::string& tag) const;
-  /// The library that a deck has to name to have this plugin, whatever the command line and the environment name; "" if none.
+  /// The library that a deck has to name to have this plugin, whatever the command line and the environment name; "" if
+  /// none.
   std::string named_library(Kind kind, const std::string& tag) const;
 
  private:

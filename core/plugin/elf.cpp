@@ -59,7 +59,8 @@ std::optional<Header> own_header() {
 std::string why_odd(const Header& header) {
   if (std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0) return "it is no shared library";
   const auto own = own_header();
-  if (own && (header.e_ident[EI_CLASS] != own->e_ident[EI_CLASS] || header.e_ident[EI_DATA] != own->e_ident[EI_DATA] || header.e_machine != own->e_machine))
+  if (own && (header.e_ident[EI_CLASS] != own->e_ident[EI_CLASS] || header.e_ident[EI_DATA] != own->e_ident[EI_DATA] ||
+              header.e_machine != own->e_machine))
     return "it was built for another kind of processor";
   if (header.e_type != ET_DYN) return "it is no shared library, but an object file or a program";
   if (header.e_phentsize != sizeof(Segment) || header.e_phnum == 0) return damaged + "it has no segments";
@@ -76,7 +77,8 @@ class Mapped {
   bool none() const { return loads_.empty(); }
   bool holds(Size address, Size length) const {
     for (const Segment& s : loads_)
-      if (address >= s.p_vaddr && address - s.p_vaddr <= s.p_memsz && length <= s.p_memsz - (address - s.p_vaddr)) return true;
+      if (address >= s.p_vaddr && address - s.p_vaddr <= s.p_memsz && length <= s.p_memsz - (address - s.p_vaddr))
+        return true;
     return false;
   }
 
@@ -91,8 +93,10 @@ std::string why_segments(const Image& image, const std::vector<Segment>& segment
       return fmt::format("it is cut off: of {} bytes a part ends at {}", image.size(), s.p_offset + s.p_filesz);
     if (s.p_type != PT_LOAD) continue;
     constexpr Size most = Size{1} << 40;
-    if (s.p_filesz > s.p_memsz || s.p_memsz > most || s.p_vaddr > most || s.p_vaddr < last) return damaged + "its segments lie in no order";
-    if (s.p_align > 1 && ((s.p_align & (s.p_align - 1)) != 0 || s.p_align > most || (s.p_vaddr - s.p_offset) % s.p_align != 0))
+    if (s.p_filesz > s.p_memsz || s.p_memsz > most || s.p_vaddr > most || s.p_vaddr < last)
+      return damaged + "its segments lie in no order";
+    if (s.p_align > 1 &&
+        ((s.p_align & (s.p_align - 1)) != 0 || s.p_align > most || (s.p_vaddr - s.p_offset) % s.p_align != 0))
       return damaged + "its segments are not aligned";
     last = s.p_vaddr + s.p_memsz;
   }
@@ -107,15 +111,17 @@ std::string why_dynamic(const std::vector<Entry>& entries, const Mapped& mapped)
     if (e.d_tag == DT_STRTAB) strings = e.d_un.d_ptr;
     if (e.d_tag == DT_STRSZ) length = e.d_un.d_val;
     if (e.d_tag == DT_SYMTAB) symbols = e.d_un.d_ptr;
-    const bool pointer = e.d_tag == DT_HASH || e.d_tag == DT_GNU_HASH || e.d_tag == DT_RELA || e.d_tag == DT_JMPREL || e.d_tag == DT_INIT ||
-                         e.d_tag == DT_FINI || e.d_tag == DT_INIT_ARRAY || e.d_tag == DT_FINI_ARRAY || e.d_tag == DT_VERSYM ||
-                         e.d_tag == DT_VERNEED || e.d_tag == DT_VERDEF || e.d_tag == DT_PLTGOT;
+    const bool pointer = e.d_tag == DT_HASH || e.d_tag == DT_GNU_HASH || e.d_tag == DT_RELA || e.d_tag == DT_JMPREL ||
+                         e.d_tag == DT_INIT || e.d_tag == DT_FINI || e.d_tag == DT_INIT_ARRAY ||
+                         e.d_tag == DT_FINI_ARRAY || e.d_tag == DT_VERSYM || e.d_tag == DT_VERNEED ||
+                         e.d_tag == DT_VERDEF || e.d_tag == DT_PLTGOT;
     if (pointer && !mapped.holds(e.d_un.d_ptr, 1)) return damaged + "a table lies outside of it";
   }
   if (!mapped.holds(strings, length) || !mapped.holds(symbols, 1)) return damaged + "its names lie outside of it";
   for (const Entry& e : entries) {
     if (e.d_tag == DT_NULL) break;
-    if ((e.d_tag == DT_NEEDED || e.d_tag == DT_SONAME || e.d_tag == DT_RUNPATH || e.d_tag == DT_RPATH) && e.d_un.d_val >= length)
+    if ((e.d_tag == DT_NEEDED || e.d_tag == DT_SONAME || e.d_tag == DT_RUNPATH || e.d_tag == DT_RPATH) &&
+        e.d_un.d_val >= length)
       return damaged + "a name lies outside of its names";
   }
   const auto sized = [&](auto start_tag, auto size_tag) {
@@ -126,7 +132,8 @@ std::string why_dynamic(const std::vector<Entry>& entries, const Mapped& mapped)
     }
     return size == 0 || mapped.holds(start, size);
   };
-  const bool whole = sized(DT_RELA, DT_RELASZ) && sized(DT_JMPREL, DT_PLTRELSZ) && sized(DT_INIT_ARRAY, DT_INIT_ARRAYSZ) && sized(DT_FINI_ARRAY, DT_FINI_ARRAYSZ);
+  const bool whole = sized(DT_RELA, DT_RELASZ) && sized(DT_JMPREL, DT_PLTRELSZ) &&
+                     sized(DT_INIT_ARRAY, DT_INIT_ARRAYSZ) && sized(DT_FINI_ARRAY, DT_FINI_ARRAYSZ);
   return whole ? "" : damaged + "a table ends outside of it";
 }
 
@@ -135,7 +142,9 @@ std::string why_sections(Image& image, const Header& header) {
   if (header.e_shnum == 0) return "";
   if (header.e_shentsize != sizeof(Section)) return damaged + "its sections have an odd size";
   const auto sections = image.read<Section>(header.e_shoff, header.e_shnum);
-  if (!sections) return fmt::format("it is cut off: of {} bytes the list of its sections ends at {}", image.size(), header.e_shoff + Size{header.e_shnum} * sizeof(Section));
+  if (!sections)
+    return fmt::format("it is cut off: of {} bytes the list of its sections ends at {}", image.size(),
+                       header.e_shoff + Size{header.e_shnum} * sizeof(Section));
   for (const Section& s : *sections)
     if (s.sh_type != SHT_NOBITS && s.sh_type != SHT_NULL && !image.holds(s.sh_offset, s.sh_size))
       return fmt::format("it is cut off: of {} bytes a section ends at {}", image.size(), s.sh_offset + s.sh_size);

@@ -20,8 +20,10 @@ PrescribedMotion Constraint::at(Real time) const {
     blame(whose() + " failed in the motion that it prescribes");
   }
   if (!std::isfinite(now.displacement) || !std::isfinite(now.velocity) || !std::isfinite(now.acceleration))
-    throw PhysicsFailure(fmt::format("{} prescribes at {} s a displacement of {} m, a velocity of {} m/s and an acceleration of {} m/s2: they must be finite", whose(), time,
-                                     now.displacement, now.velocity, now.acceleration));
+    throw PhysicsFailure(
+        fmt::format("{} prescribes at {} s a displacement of {} m, a velocity of {} m/s and an acceleration of {} "
+                    "m/s2: they must be finite",
+                    whose(), time, now.displacement, now.velocity, now.acceleration));
   return now;
 }
 

@@ -60,7 +60,7 @@ struct Evaluation {
 struct BondEvent {
   Index row;
   std::string mode;  ///< under which its break is logged; "" of a change that is no break
-  Real energy;  ///< [J]
+  Real energy;       ///< [J]
 };
 
 class BondLaw : public Plugin {
@@ -68,16 +68,21 @@ class BondLaw : public Plugin {
   static constexpr Kind kind = Kind::bond;
   Param<std::string> name{this, {.name = "name", .doc = "Name of the family of bonds", .role = Role::makes_family}};
   Param<std::vector<std::string>> between{
-      this, {.name = "between", .doc = "The two sets that are bonded; one and the same for bonds inside a set", .role = Role::set, .count = 2}};
-  Param<Real> gap{this,
-                  {.name = "gap",
-                   .range = {0, 100},
-                   .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
-                   .fallback = "1e-3"}};
+      this,
+      {.name = "between",
+       .doc = "The two sets that are bonded; one and the same for bonds inside a set",
+       .role = Role::set,
+       .count = 2}};
+  Param<Real> gap{
+      this,
+      {.name = "gap",
+       .range = {0, 100},
+       .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
+       .fallback = "1e-3"}};
   Param<std::string> neighbours{this,
                                 {.name = "neighbours",
-                                 .doc = "Which elements within 'gap' are bonded: all, or the next only, none over a third that lies between the two: "
-                                        "for a row of elements that overlap",
+                                 .doc = "Which elements within 'gap' are bonded: all, or the next only, none over a "
+                                        "third that lies between the two: for a row of elements that overlap",
                                  .fallback = "all",
                                  .choices = {"all", "next"}}};
 
@@ -89,7 +94,8 @@ class BondLaw : public Plugin {
   virtual void connect(Domain& domain, BondTable& table) = 0;
   /// What the log says once of the bonds just made.
   virtual std::string remark() const { return ""; }
-  /// What the log warns of once, at the bonds just made: that they will not do what the deck seems to want; "" for nothing.
+  /// What the log warns of once, at the bonds just made: that they will not do what the deck seems to want; "" for
+  /// nothing.
   virtual std::string caution() const { return ""; }
   /// Adds the forces of all live bonds to the elements: a pure function of the state and the accepted history.
   virtual void act(Domain& domain, BondTable& table, const Evaluation& evaluation) = 0;
@@ -97,8 +103,8 @@ class BondLaw : public Plugin {
   virtual void withdraw(Domain& domain, const BondTable& table, Index row) = 0;
   /// Bonds whose state changed while settling in the last `act`; empty at nearly all steps.
   virtual std::span<const BondEvent> events() const { return {}; }
-  /// After such an event, once the step is complete: takes off the sums what acted in this step and acts no more from here on. A force that
-  /// ended within a step would take half a step's work from the balance.
+  /// After such an event, once the step is complete: takes off the sums what acted in this step and acts no more from
+  /// here on. A force that ended within a step would take half a step's work from the balance.
   virtual void end(Domain&, BondTable&, Index /*row*/) {}
   /// Recoverable energy of one bond [J].
   virtual Real stored_energy(const Domain& domain, const BondTable& table, Index row) const = 0;
@@ -106,12 +112,13 @@ class BondLaw : public Plugin {
   virtual Real stored_energy(const Domain& domain, const BondTable& table) const = 0;
   /// Energy that the law itself has taken for good [J].
   virtual Real dissipated_energy(const Domain&, const BondTable&) const { return 0; }
-  /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2). Asked by several threads at once.
+  /// Stiffness of one bond about the present state, rows and columns (x1, theta1, x2, theta2). Asked by several threads
+  /// at once.
   virtual Matrix12 tangent(const Domain& domain, const BondTable& table, Index row) const = 0;
   /// True if the force depends on velocities, and on spins where it turns.
   virtual bool moves() const { return false; }
-  /// How the force of such a law opposes velocities, beside the tangent: loads = -C rates, rates (v1, w1, v2, w2), symmetric. The largest
-  /// that it can become: a time step must be stable for it. Asked by several threads at once.
+  /// How the force of such a law opposes velocities, beside the tangent: loads = -C rates, rates (v1, w1, v2, w2),
+  /// symmetric. The largest that it can become: a time step must be stable for it. Asked by several threads at once.
   virtual Matrix12 damping(const Domain&, const BondTable&, Index) const { return Matrix12::Zero(); }
   /// Power that such forces take at the present velocities, over the live bonds [W].
   virtual Real power(const Domain&, const BondTable&) const { return 0; }
@@ -140,9 +147,9 @@ struct Constraint {
   bool driven = false;                           ///< it moves (pull), as against holding still
   std::function<PrescribedMotion(Real)> motion;  ///< displacement, velocity, acceleration by the time since it began
   Real reach = std::numeric_limits<Real>::infinity();  ///< farthest that it ever gets from where it has been [m]
-  Real began = 0;                                ///< start of the first stage in which the load stands [s]
-  Kept reaction;                                 ///< sum of the forces that keep it, at the last accepted step [N]
-  Kept work;                                     ///< of these forces so far [J]
+  Real began = 0;                                      ///< start of the first stage in which the load stands [s]
+  Kept reaction;  ///< sum of the forces that keep it, at the last accepted step [N]
+  Kept work;      ///< of these forces so far [J]
 
   /// Throws PhysicsFailure, with the load's place in the deck, if the motion fails or is no number.
   PrescribedMotion at(Real time) const;
@@ -158,8 +165,8 @@ class Load : public Plugin {
   virtual std::vector<Constraint> constraints() const { return {}; }
   /// Adds forces, at every evaluation.
   virtual void push(Domain&, const Moment&) {}
-  /// After every accepted step: accumulates the work of `push`. Velocities and spins stand for the end of the step where the
-  /// load declares that it `Reads` them (`Keeps` does not count), or a derived field that is found from them.
+  /// After every accepted step: accumulates the work of `push`. Velocities and spins stand for the end of the step
+  /// where the load declares that it `Reads` them (`Keeps` does not count), or a derived field that is found from them.
   virtual void account(const Domain&, const Moment&) {}
 };
 
@@ -185,8 +192,8 @@ class Mover : public Plugin {
   Param<std::string> until{
       this,
       {.name = "until",
-       .doc = "When the stage ends: a time (1 ms), a number of steps (5000), a displacement of what is pulled (0.8 mm), or a condition such "
-              "as \"force of right < 2 percent of its maximum\"; several are joined by 'or'",
+       .doc = "When the stage ends: a time (1 ms), a number of steps (5000), a displacement of what is pulled (0.8 "
+              "mm), or a condition such as \"force of right < 2 percent of its maximum\"; several are joined by 'or'",
        .optional = true}};
 
   /// Told before anything is allocated: whether some plugin reads orientations or adds torques.
@@ -202,8 +209,8 @@ class Mover : public Plugin {
   virtual void complete(Workings&) {}
   /// Whether bonds act in single precision, where their law can.
   virtual bool in_single() const { return false; }
-  /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not the energy itself but
-  /// the energy less this [J].
+  /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not
+  /// the energy itself but the energy less this [J].
   virtual Real swing() const { return 0; }
   /// The part of it that follows from the present forces alone, and so jumps where something breaks [J].
   virtual Real shadow_energy() const { return 0; }
@@ -227,19 +234,20 @@ class Failure : public Plugin {
  public:
   static constexpr Kind kind = Kind::fail;
   Param<std::string> of{this, {.name = "of", .doc = "The family of bonds that may break", .role = Role::family}};
-  Param<std::int64_t> every{this, {.name = "every", .range = {1}, .doc = "Steps from one check to the next", .fallback = "1"}};
+  Param<std::int64_t> every{
+      this, {.name = "every", .range = {1}, .doc = "Steps from one check to the next", .fallback = "1"}};
   Writes<Real> utilisation{this, field_utilisation()};
 
   std::string family() const override { return *of; }
-  /// All bonds are judged on one configuration, so that no order matters. Also called at other steps than those of `every`, for those
-  /// who want to see utilisations; then nothing breaks.
+  /// All bonds are judged on one configuration, so that no order matters. Also called at other steps than those of
+  /// `every`, for those who want to see utilisations; then nothing breaks.
   virtual Verdict judge(const Domain& domain, const BondTable& table) = 0;
   /// Name of the way in which bonds break, for the log.
   virtual std::string mode() const = 0;
 
  protected:
-  /// The pass over the live bonds, which the threads share: f(row) is the utilisation of a bond, which breaks from 1 on. Written where
-  /// somebody reads it; of several criteria for one family the largest.
+  /// The pass over the live bonds, which the threads share: f(row) is the utilisation of a bond, which breaks from 1
+  /// on. Written where somebody reads it; of several criteria for one family the largest.
   template <class F>
   Verdict judge_each(const BondTable& table, const F& f) const {
     std::vector<Verdict> parts(table.chunks().size());
@@ -324,16 +332,17 @@ class Watcher : public Plugin {
  public:
   static constexpr Kind kind = Kind::watch;
   Param<std::int64_t> every{
-      this, {.name = "every", .range = {1}, .doc = "Steps from one record to the next", .fallback = "100", .instead = "at"}};
+      this,
+      {.name = "every", .range = {1}, .doc = "Steps from one record to the next", .fallback = "100", .instead = "at"}};
   Param<std::string> moments{
       this,
       {.name = "at",
-       .doc = "Single moments to record, separated by commas: times (1 ms), numbers of steps (5000) or displacements of what is pulled "
-              "(0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the stage, which is always recorded; beside "
-              "'every' or instead of it",
+       .doc = "Single moments to record, separated by commas: times (1 ms), numbers of steps (5000) or displacements "
+              "of what is pulled (0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the "
+              "stage, which is always recorded; beside 'every' or instead of it",
        .optional = true}};
-  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at' and to the end of the stage, and
-  /// brings up to date what the watcher reads.
+  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at' and to the end of the
+  /// stage, and brings up to date what the watcher reads.
   virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
   /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
   virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}

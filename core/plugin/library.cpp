@@ -34,7 +34,8 @@ std::string why_not(const std::filesystem::path& path) {
 [[noreturn]] void load_and_end(const std::filesystem::path& path) {
   constexpr unsigned patience = 20;  // s
   for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGALRM}) std::signal(signal, SIG_DFL);
-  if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0) ::dup2(nowhere, STDOUT_FILENO), ::dup2(nowhere, STDERR_FILENO);
+  if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0)
+    ::dup2(nowhere, STDOUT_FILENO), ::dup2(nowhere, STDERR_FILENO);
   ::alarm(patience);
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   const auto stamp = library ? reinterpret_cast<StampEntry*>(dlsym(library, stamp_entry)) : nullptr;
@@ -56,14 +57,18 @@ std::string why_it_would_end_us(const std::filesystem::path& path) {
   }
   if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0)) return "";
   if (!WIFSIGNALED(status)) return "the system's loader gives up on it: the file is damaged; build it anew";
-  return fmt::format("loading it ends a process ({}): the file is damaged, or what the library does as it is loaded fails; build it anew", ::strsignal(WTERMSIG(status)));
+  return fmt::format(
+      "loading it ends a process ({}): the file is damaged, or what the library does as it is loaded fails; build it "
+      "anew",
+      ::strsignal(WTERMSIG(status)));
 }
 
 bool has(std::string_view set) {
 #if defined(__x86_64__)
   if (set == "avx2") return __builtin_cpu_supports("avx2");
   if (set == "avx512")
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512vl");
 #endif
   return false;
 }
@@ -96,8 +101,7 @@ Library open_library(const std::filesystem::path& path, Trust trust) {
   if (!why.empty()) throw LibraryFailure(fmt::format("cannot open plugin library {}: {}", path.string(), why));
   boost::dll::fs::error_code error;
   auto* library = new boost::dll::shared_library;  // never unloaded, on purpose
-  library->load(path,
-                boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, error);
+  library->load(path, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local, error);
   if (error) throw LibraryFailure(fmt::format("cannot open plugin library {}: {}", path.string(), why_not(path)));
   if (!library->has(stamp_entry) || !library->has(list_entry))
     throw LibraryFailure(fmt::format("{} is no plugin library: it lacks {} or {} (build it with beadwork_add_plugins)",
@@ -106,22 +110,28 @@ Library open_library(const std::filesystem::path& path, Trust trust) {
     try {
       return entry();
     } catch (const std::exception& error_of_theirs) {
-      throw LibraryFailure(fmt::format("plugin library {} failed as it was asked for its plugins: {}", path.string(), error_of_theirs.what()));
+      throw LibraryFailure(fmt::format("plugin library {} failed as it was asked for its plugins: {}", path.string(),
+                                       error_of_theirs.what()));
     } catch (...) {
-      throw LibraryFailure(fmt::format("plugin library {} failed as it was asked for its plugins: it threw something that is no std::exception", path.string()));
+      throw LibraryFailure(fmt::format(
+          "plugin library {} failed as it was asked for its plugins: it threw something that is no std::exception",
+          path.string()));
     }
   };
   const char* stamp = ask([&] { return library->get<StampEntry>(stamp_entry)(); });
   const std::string theirs = stamp ? stamp : "none";
   const std::string ours = compiled_stamp();
   if (theirs != ours)
-    throw LibraryFailure(fmt::format("plugin library {} does not fit this program: rebuild it\n  library: {}\n  program: {}",
-                                     path.string(), theirs, ours));
+    throw LibraryFailure(
+        fmt::format("plugin library {} does not fit this program: rebuild it\n  library: {}\n  program: {}",
+                    path.string(), theirs, ours));
   const auto* list = ask([&] { return library->get<ListEntry>(list_entry)(); });
   if (!list) throw LibraryFailure(fmt::format("plugin library {} hands over no list of plugins", path.string()));
   for (const PluginEntry& entry : *list)
     if (!entry.make || std::find(std::begin(all_kinds), std::end(all_kinds), entry.kind) == std::end(all_kinds))
-      throw LibraryFailure(fmt::format("plugin library {} hands over <{}>, which is of no kind that there is or cannot be made", path.string(), entry.tag));
+      throw LibraryFailure(
+          fmt::format("plugin library {} hands over <{}>, which is of no kind that there is or cannot be made",
+                      path.string(), entry.tag));
   return {path, theirs, *list};
 }
 

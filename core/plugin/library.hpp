@@ -23,15 +23,16 @@ struct Library {
   std::filesystem::path named = {};  ///< as a deck has to name it; empty where it is found without
 };
 
-/// The instruction sets beyond the processor's baseline for which libraries exist in variants, widest first, of those that
-/// this processor has and that the environment variable BEADWORK_INSTRUCTIONS (baseline, avx2 or avx512: the widest
-/// allowed) does not rule out. Throws LibraryFailure if it names no such set.
+/// The instruction sets beyond the processor's baseline for which libraries exist in variants, widest first, of those
+/// that this processor has and that the environment variable BEADWORK_INSTRUCTIONS (baseline, avx2 or avx512: the
+/// widest allowed) does not rule out. Throws LibraryFailure if it names no such set.
 std::vector<std::string> instruction_sets();
 
 /// The variant of a library for the widest of `sets` that there is: folder/avx2/name beside folder/name; or itself.
 std::filesystem::path widest_variant(const std::filesystem::path& path, const std::vector<std::string>& sets);
 
-/// The program's own libraries are opened at once; any other first in a child, since a damaged file can end the process that loads it.
+/// The program's own libraries are opened at once; any other first in a child, since a damaged file can end the process
+/// that loads it.
 enum class Trust { none, own };
 
 /// Throws LibraryFailure if it cannot be opened, is no plugin library, or was built for another kernel (then with both

@@ -31,10 +31,11 @@ std::string si(Real value, const std::string& unit) {
 
 std::string absolute(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
-bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, const Scope& scope, Complaints& complaints) {
+bool in_range(Real value, const ParamInfo& info, const Attribute& attribute, const Scope& scope,
+              Complaints& complaints) {
   if (info.range.holds(value)) return true;
-  complaints.error(attribute.value_at, fmt::format("'{}' must be {}, got \"{}\"", info.name,
-                                                   info.range.text(info.unit), shown_value(attribute, scope)));
+  complaints.error(attribute.value_at, fmt::format("'{}' must be {}, got \"{}\"", info.name, info.range.text(info.unit),
+                                                   shown_value(attribute, scope)));
   return false;
 }
 
@@ -75,7 +76,8 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
                 std::vector<std::string>& value) {
   if (!keep_if(info.role == Role::file ? read_paths(a, scope, c) : read_words(a, scope, c), value)) return false;
   if (info.count > 0 && static_cast<int>(value.size()) != info.count) {
-    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(), shown_value(a, scope)));
+    c.error(a.value_at, fmt::format("'{}' wants {} words, got {} in \"{}\"", info.name, info.count, value.size(),
+                                    shown_value(a, scope)));
     return false;
   }
   if (info.choices.empty()) return true;
@@ -98,12 +100,14 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
   const bool condition = value.expression->is_condition();
   if (info.unit.empty()) {
     if (condition) return true;
-    c.error(a.value_at, fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, shown_value(a, scope)));
+    c.error(a.value_at,
+            fmt::format("'{}' wants a condition such as \"x < 1 mm\", got \"{}\"", info.name, shown_value(a, scope)));
     return false;
   }
   if (value.expression->has_dimension(find_unit(info.unit)->dimension)) return true;
-  c.error(a.value_at, fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), shown_value(a, scope),
-                                  condition ? "a condition" : value.expression->dimension().name()));
+  c.error(a.value_at,
+          fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), shown_value(a, scope),
+                      condition ? "a condition" : value.expression->dimension().name()));
   return false;
 }
 
@@ -126,7 +130,9 @@ std::string text_of_value(const Vec3& v, const ParamInfo& info) {
 }
 std::string text_of_value(const std::int64_t& v, const ParamInfo&) { return std::to_string(v); }
 std::string text_of_value(const bool& v, const ParamInfo&) { return v ? "yes" : "no"; }
-std::string text_of_value(const std::string& v, const ParamInfo& info) { return info.role == Role::file ? absolute(v) : v; }
+std::string text_of_value(const std::string& v, const ParamInfo& info) {
+  return info.role == Role::file ? absolute(v) : v;
+}
 std::string text_of_value(const std::vector<std::string>& v, const ParamInfo& info) {
   if (info.role != Role::file) return join(v, " ");
   std::vector<std::string> paths;

@@ -38,18 +38,18 @@ enum class Role { plain, makes_set, set, makes_family, family, fields, file };
 
 struct ParamInfo {
   std::string name;
-  std::string unit = "1";              ///< of quantities; "1" is a plain number
-  Range range = anything;              ///< in SI
+  std::string unit = "1";  ///< of quantities; "1" is a plain number
+  Range range = anything;  ///< in SI
   std::string doc;
   std::optional<std::string> fallback = std::nullopt;  ///< used when the deck is silent, read as if it stood there
-  bool optional = false;               ///< may be absent without a fallback: ask `given()`
-  std::vector<std::string> choices = {};  ///< of a text: one of these
+  bool optional = false;                               ///< may be absent without a fallback: ask `given()`
+  std::vector<std::string> choices = {};               ///< of a text: one of these
   Role role = Role::plain;
-  int count = 0;                       ///< of several words: how many are wanted; 0 is any number
+  int count = 0;                          ///< of several words: how many are wanted; 0 is any number
   std::vector<Variable> variables = {};   ///< of a formula
   std::vector<std::string> columns = {};  ///< of rows: the unit of each column
-  std::string instead = {};            ///< an attribute that may stand in place of this one: with it there is no fallback
-  std::string one_of = {};             ///< of the parameters that name one such group, exactly one is to be given
+  std::string instead = {};  ///< an attribute that may stand in place of this one: with it there is no fallback
+  std::string one_of = {};   ///< of the parameters that name one such group, exactly one is to be given
 };
 
 /// QuantityRows of quantities, such as `0 s 0 m/s, 1 ms 2 m/s`, in SI.
@@ -83,7 +83,8 @@ class ParamBase {
   void read_fallback(const Location& at, const Scope& scope, Complaints& complaints);
 
   virtual std::string type() const = 0;  ///< in words, for the manual
-  virtual std::string text() const = 0;  ///< the value in SI, as any deck may give it: without parameters, paths absolute
+  virtual std::string text()
+      const = 0;  ///< the value in SI, as any deck may give it: without parameters, paths absolute
   /// The names it holds, if its role is one of names.
   virtual std::vector<std::string> names() const { return {}; }
 
@@ -98,8 +99,8 @@ class ParamBase {
   std::string written_;  ///< the value as it stands in the deck
 };
 
-/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string>, QuantityRows or Formula. A text whose role is that of a
-/// file becomes a path that can be opened.
+/// T is Real, Vec3, std::int64_t, bool, std::string, std::vector<std::string>, QuantityRows or Formula. A text whose
+/// role is that of a file becomes a path that can be opened.
 template <class T>
 class Param final : public ParamBase {
  public:

@@ -66,7 +66,9 @@ void Plugin::configure(const Node& node, const std::string& id, const Scope& sco
                                                       did_you_mean(attribute.name, known)));
   for (const auto& child : node.children)
     complaints.error(child->at, fmt::format("<{}> takes no <{}> inside it", tag_, child->tag));
-  const bool group_is_misspelt = std::any_of(params_.begin(), params_.end(), [&](const ParamBase* p) { return !p->info().one_of.empty() && misspelt.contains(p->info().name); });
+  const bool group_is_misspelt = std::any_of(params_.begin(), params_.end(), [&](const ParamBase* p) {
+    return !p->info().one_of.empty() && misspelt.contains(p->info().name);
+  });
   if (!group_is_misspelt) check_groups(complaints);
 }
 
@@ -109,7 +111,8 @@ void Plugin::check_groups(Complaints& complaints) const {
       if (member->in_deck()) there.push_back(all.back());
     }
     if (there.size() == 1) continue;
-    complaints.error(at_, fmt::format("exactly one of {} is wanted, {}", join(all), there.empty() ? "none is given" : "got " + join(there, " and ")));
+    complaints.error(at_, fmt::format("exactly one of {} is wanted, {}", join(all),
+                                      there.empty() ? "none is given" : "got " + join(there, " and ")));
   }
 }
 

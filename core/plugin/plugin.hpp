@@ -11,7 +11,8 @@
 namespace beadwork {
 
 enum class Kind { fill, bond, load, move, fail, derive, watch };
-inline constexpr Kind all_kinds[] = {Kind::fill, Kind::bond, Kind::load, Kind::move, Kind::fail, Kind::derive, Kind::watch};
+inline constexpr Kind all_kinds[] = {Kind::fill, Kind::bond,   Kind::load, Kind::move,
+                                     Kind::fail, Kind::derive, Kind::watch};
 const char* kind_name(Kind kind);  ///< the section of the deck and the folder of the sources
 
 /// Where an energy stands in the balance  work = stored + kinetic + dissipated.
@@ -85,7 +86,7 @@ class Plugin {
 struct PluginEntry {
   Kind kind;
   std::string tag;
-  std::string about;   ///< one line
+  std::string about;  ///< one line
   std::unique_ptr<Plugin> (*make)();
 };
 

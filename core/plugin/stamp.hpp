@@ -16,9 +16,9 @@ inline std::string compiled_stamp() {
 #else
   const std::string compiler = fmt::format("gcc {}", __GNUC__);
 #endif
-  return fmt::format("beadwork {}, real {} bytes, Eigen {}.{}.{} aligned to {}, {}, libstdc++ {}", version, sizeof(Real),
-                     EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, EIGEN_MAX_STATIC_ALIGN_BYTES, compiler,
-                     __GLIBCXX__);
+  return fmt::format("beadwork {}, real {} bytes, Eigen {}.{}.{} aligned to {}, {}, libstdc++ {}", version,
+                     sizeof(Real), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                     EIGEN_MAX_STATIC_ALIGN_BYTES, compiler, __GLIBCXX__);
 }
 
 }  // namespace beadwork

@@ -51,7 +51,8 @@ template <class T, Verb V>
 class Use final : public FieldUse {
  public:
   Use(Plugin* owner, const Field& field) : FieldUse(owner, field, V) {}
-  Use(Plugin* owner, const OwnField& own) : FieldUse(owner, {own.name, own.on, type_of<T>(), own.unit, own.doc, ""}, V) {}
+  Use(Plugin* owner, const OwnField& own)
+      : FieldUse(owner, {own.name, own.on, type_of<T>(), own.unit, own.doc, ""}, V) {}
 
   void bind(Column* column) override { view_ = column ? View<T>(column->view<std::remove_const_t<T>>()) : View<T>{}; }
   const View<T>& view() const { return view_; }

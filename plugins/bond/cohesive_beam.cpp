@@ -92,22 +92,33 @@ struct CohesiveBeamFromTurned : CohesiveBeamLaw {
 class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTurned> {
  public:
   static constexpr const char* about = "Beams of round section between neighbouring elements: a bonded elastic solid";
-  Param<Real> young{this, {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus E_mu of the beams (microscopic)"}};
-  Param<Real> poisson{this, {.name = "poisson", .range = {-1, 0.5, true, false}, .doc = "Poisson's ratio nu_mu of the beams (microscopic)", .fallback = "0.3"}};
-  Param<Real> radius_ratio{this, {.name = "radius-ratio", .range = positive, .doc = "Radius of a beam over the mean radius of its two elements"}};
+  Param<Real> young{
+      this,
+      {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus E_mu of the beams (microscopic)"}};
+  Param<Real> poisson{this,
+                      {.name = "poisson",
+                       .range = {-1, 0.5, true, false},
+                       .doc = "Poisson's ratio nu_mu of the beams (microscopic)",
+                       .fallback = "0.3"}};
+  Param<Real> radius_ratio{
+      this,
+      {.name = "radius-ratio", .range = positive, .doc = "Radius of a beam over the mean radius of its two elements"}};
 
   Reads<Vec3> position{this, field::position};
   Reads<Quat> orientation{this, field::orientation};
   Reads<Real> radius{this, field::radius};
   Adds<Vec3> force{this, field::force};
   Adds<Vec3> torque{this, field::torque};
-  Keeps<Vec3> axis{this, {"axis", On::bonds, "1", "Direction from the first to the second element when the bond was made"}};
+  Keeps<Vec3> axis{this,
+                   {"axis", On::bonds, "1", "Direction from the first to the second element when the bond was made"}};
   Keeps<Real> length{this, field::rest_length};
   Keeps<Real> axial{this, {"axial-stiffness", On::bonds, "N/m", "E A / L"}};
   Keeps<Real> bending{this, {"bending-stiffness", On::bonds, "N.m", "2 E I / L"}};
   // Only where elements had turned before they were bonded, which is known when they are.
-  Keeps<Quat> reference1{this, {"reference-1", On::bonds, "1", "Orientation of the first element when the bond was made"}};
-  Keeps<Quat> reference2{this, {"reference-2", On::bonds, "1", "Orientation of the second element when the bond was made"}};
+  Keeps<Quat> reference1{this,
+                         {"reference-1", On::bonds, "1", "Orientation of the first element when the bond was made"}};
+  Keeps<Quat> reference2{this,
+                         {"reference-2", On::bonds, "1", "Orientation of the second element when the bond was made"}};
   Writes<Real> section_radius{this, field::section_radius};
   Writes<Real> axial_force{this, field::axial_force};
   Writes<Real> bending_moment{this, field::bending_moment};
@@ -126,8 +137,8 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
       const Real r = *radius_ratio * 0.5 * (radius[i] + radius[j]);
       const Vec3 apart = position[j] - position[i];
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
-        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a beam between them has no direction; move one "
-                                 "of them or leave it out of the sets",
+        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a beam between them has no "
+                                 "direction; move one of them or leave it out of the sets",
                                  i, j, *name));
       const BeamRest<Real> rest = round_beam(apart, *young, *poisson, r);
       axis.set(row, rest.axis);
@@ -156,7 +167,8 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
     for (Index row = 0; row < table.size(); ++row)
       for (const Index end : {table.first()[row], table.second()[row]}) turned |= orientation[end].v.squaredNorm() > 0;
     if (!turned) return;
-    for (FieldUse* use : {static_cast<FieldUse*>(&reference1), static_cast<FieldUse*>(&reference2)}) table.rows().add(use->field()).keep();
+    for (FieldUse* use : {static_cast<FieldUse*>(&reference1), static_cast<FieldUse*>(&reference2)})
+      table.rows().add(use->field()).keep();
     table.rebind();
     bind(domain);
     for (Index row = 0; row < table.size(); ++row) {
@@ -166,8 +178,15 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
   }
 
   CohesiveBeamLaw columns() const {
-    return {axis.view(), length.view(), axial.view(), bending.view(), torsion_to_bending(*poisson),
-            axial_force.view(), bending_moment.view(), twisting_moment.view(), section_radius.view()};
+    return {axis.view(),
+            length.view(),
+            axial.view(),
+            bending.view(),
+            torsion_to_bending(*poisson),
+            axial_force.view(),
+            bending_moment.view(),
+            twisting_moment.view(),
+            section_radius.view()};
   }
 };
 

@@ -16,7 +16,8 @@ namespace beadwork {
 
 namespace {
 
-const OwnField opening_field{"opening", On::bonds, "m", "Distance of the two faces along the normal, positive when pulled apart"};
+const OwnField opening_field{"opening", On::bonds, "m",
+                             "Distance of the two faces along the normal, positive when pulled apart"};
 const OwnField sliding_field{"sliding", On::bonds, "m", "Sliding of the two faces against each other"};
 
 using Opening = IndependentModes<CohesiveModes::normal>;
@@ -32,27 +33,103 @@ using CarriedFacesLaw = CohesiveFaces<true, Modes>;
 
 /// Cohesive contact (CCM): linear up to the strength, then linear softening to zero.   Eqs (3)-(5)
 /// docs/theory/cohesive-contact.md
-class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sliding>, PairFacesLaw<Both>, PairFacesLaw<MixedMode>, CarriedFacesLaw<Opening>,
-                                               CarriedFacesLaw<Sliding>, CarriedFacesLaw<Both>, CarriedFacesLaw<MixedMode>> {
+class CohesiveContact final
+    : public BondLawOf<CohesiveOpening, PairFacesLaw<Sliding>, PairFacesLaw<Both>, PairFacesLaw<MixedMode>,
+                       CarriedFacesLaw<Opening>, CarriedFacesLaw<Sliding>, CarriedFacesLaw<Both>,
+                       CarriedFacesLaw<MixedMode>> {
  public:
-  static constexpr const char* about = "Cohesive contact (CCM): elastic up to the strength, then softening in a straight line to zero";
-  Param<std::string> modes{this, {.name = "modes", .doc = "Which displacements the contact resists", .fallback = "normal", .choices = {"normal", "shear", "both"}}};
-  Param<std::string> normal{this, {.name = "normal", .doc = "What opening and sliding are measured against: pair, the line of centres (Eqs (3), (4); oblique contacts lock in shear); plane, the plane that the interface lies in; axis, away from the axis of a fibre", .fallback = "pair", .choices = {"pair", "plane", "axis"}}};
-  Param<Vec3> plane_normal{this, {.name = "plane-normal", .doc = "Normal of the plane, of any length and either sign; fitted to the points of contact where absent", .optional = true}};
-  Param<Vec3> axis_point{this, {.name = "axis-point", .unit = "m", .doc = "A point on the axis; where absent, rows of elements of the first set of 'between' are fibres with an axis each", .optional = true}};
-  Param<Vec3> axis_direction{this, {.name = "axis-direction", .doc = "Direction of the axis, of any length and either sign", .optional = true}};
-  Param<Real> strength{this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Traction sigma at which damage starts"}};
-  Param<Real> energy_{this, {.name = "energy", .unit = "J/m2", .range = positive, .doc = "Fracture energy G of the contact's area, Eq (5): u_p = 2 G / sigma"}};
-  Param<Real> shear_strength{this, {.name = "shear-strength", .unit = "Pa", .range = positive, .doc = "Strength against sliding; as 'strength' where absent", .optional = true}};
-  Param<Real> shear_energy{this, {.name = "shear-energy", .unit = "J/m2", .range = positive, .doc = "Fracture energy of sliding; as 'energy' where absent", .optional = true}};
-  Param<std::string> coupling{this, {.name = "coupling", .doc = "none: each mode by its own law, failure in either takes both; linear and benzeggagh-kenane: one damage for both modes, failure at the energy of that criterion for the mode mix", .fallback = "none", .choices = {"none", "linear", "benzeggagh-kenane"}}};
-  Param<Real> exponent{this, {.name = "exponent", .range = {0.5, 10}, .doc = "Exponent of Benzeggagh and Kenane, often 1.5 to 2.5", .optional = true}};
-  Param<Real> stiffness{this, {.name = "stiffness", .unit = "Pa/m", .range = positive, .doc = "Traction over opening while undamaged, K", .one_of = "onset"}};
-  Param<Real> onset{this, {.name = "onset", .unit = "m", .range = positive, .doc = "Opening u_e at which damage starts", .one_of = "onset"}};
-  Param<Real> onset_ratio{this, {.name = "onset-ratio", .range = {0, 1, true, true}, .doc = "u_e / u_p", .one_of = "onset"}};
-  Param<std::string> area_rule{this, {.name = "area", .doc = "literal: S = pi R^2 of each contact; normalised: scaled so that all contacts together have the area 'interface-area'", .fallback = "literal", .choices = {"literal", "normalised"}}};
-  Param<std::string> area_radius{this, {.name = "area-radius", .doc = "R of a contact: the mean of its two radii (elements of like size), or the smaller one (small elements on a large one)", .fallback = "mean", .choices = {"mean", "smaller"}}};
-  Param<Real> interface_area{this, {.name = "interface-area", .unit = "m2", .range = positive, .doc = "Area of the interface; needed for 'normalised', else only reported", .optional = true}};
+  static constexpr const char* about =
+      "Cohesive contact (CCM): elastic up to the strength, then softening in a straight line to zero";
+  Param<std::string> modes{this,
+                           {.name = "modes",
+                            .doc = "Which displacements the contact resists",
+                            .fallback = "normal",
+                            .choices = {"normal", "shear", "both"}}};
+  Param<std::string> normal{
+      this,
+      {.name = "normal",
+       .doc =
+           "What opening and sliding are measured against: pair, the line of centres (Eqs (3), (4); oblique contacts "
+           "lock in shear); plane, the plane that the interface lies in; axis, away from the axis of a fibre",
+       .fallback = "pair",
+       .choices = {"pair", "plane", "axis"}}};
+  Param<Vec3> plane_normal{
+      this,
+      {.name = "plane-normal",
+       .doc = "Normal of the plane, of any length and either sign; fitted to the points of contact where absent",
+       .optional = true}};
+  Param<Vec3> axis_point{this,
+                         {.name = "axis-point",
+                          .unit = "m",
+                          .doc = "A point on the axis; where absent, rows of elements of the first set of 'between' "
+                                 "are fibres with an axis each",
+                          .optional = true}};
+  Param<Vec3> axis_direction{
+      this,
+      {.name = "axis-direction", .doc = "Direction of the axis, of any length and either sign", .optional = true}};
+  Param<Real> strength{
+      this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Traction sigma at which damage starts"}};
+  Param<Real> energy_{this,
+                      {.name = "energy",
+                       .unit = "J/m2",
+                       .range = positive,
+                       .doc = "Fracture energy G of the contact's area, Eq (5): u_p = 2 G / sigma"}};
+  Param<Real> shear_strength{this,
+                             {.name = "shear-strength",
+                              .unit = "Pa",
+                              .range = positive,
+                              .doc = "Strength against sliding; as 'strength' where absent",
+                              .optional = true}};
+  Param<Real> shear_energy{this,
+                           {.name = "shear-energy",
+                            .unit = "J/m2",
+                            .range = positive,
+                            .doc = "Fracture energy of sliding; as 'energy' where absent",
+                            .optional = true}};
+  Param<std::string> coupling{
+      this,
+      {.name = "coupling",
+       .doc = "none: each mode by its own law, failure in either takes both; linear and benzeggagh-kenane: one damage "
+              "for both modes, failure at the energy of that criterion for the mode mix",
+       .fallback = "none",
+       .choices = {"none", "linear", "benzeggagh-kenane"}}};
+  Param<Real> exponent{this,
+                       {.name = "exponent",
+                        .range = {0.5, 10},
+                        .doc = "Exponent of Benzeggagh and Kenane, often 1.5 to 2.5",
+                        .optional = true}};
+  Param<Real> stiffness{this,
+                        {.name = "stiffness",
+                         .unit = "Pa/m",
+                         .range = positive,
+                         .doc = "Traction over opening while undamaged, K",
+                         .one_of = "onset"}};
+  Param<Real> onset{this,
+                    {.name = "onset",
+                     .unit = "m",
+                     .range = positive,
+                     .doc = "Opening u_e at which damage starts",
+                     .one_of = "onset"}};
+  Param<Real> onset_ratio{this,
+                          {.name = "onset-ratio", .range = {0, 1, true, true}, .doc = "u_e / u_p", .one_of = "onset"}};
+  Param<std::string> area_rule{this,
+                               {.name = "area",
+                                .doc = "literal: S = pi R^2 of each contact; normalised: scaled so that all contacts "
+                                       "together have the area 'interface-area'",
+                                .fallback = "literal",
+                                .choices = {"literal", "normalised"}}};
+  Param<std::string> area_radius{this,
+                                 {.name = "area-radius",
+                                  .doc = "R of a contact: the mean of its two radii (elements of like size), or the "
+                                         "smaller one (small elements on a large one)",
+                                  .fallback = "mean",
+                                  .choices = {"mean", "smaller"}}};
+  Param<Real> interface_area{this,
+                             {.name = "interface-area",
+                              .unit = "m2",
+                              .range = positive,
+                              .doc = "Area of the interface; needed for 'normalised', else only reported",
+                              .optional = true}};
   Param<Formula> where{this,
                        {.name = "where",
                         .unit = "",
@@ -75,29 +152,40 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
   Keeps<Real> largest_sliding{this, {"largest-sliding", On::bonds, "m", "Largest sliding so far"}};
   Keeps<Real> integrity{this, {"integrity", On::bonds, "1", "Smallest share of the stiffness so far, 1 - damage"}};
   Keeps<Real> mix{this, {"mode-mix", On::bonds, "1", "Share of sliding in the energy of the last opening"}};
-  Keeps<Real> parted{this, {"parted", On::bonds, "1", "1 when the faces have slid past one another, 0.5 in the step in which they do"}};
-  Keeps<Real> extra_dissipation{this, {"extra-dissipation", On::bonds, "J", "Energy dissipated beyond what the largest openings tell: when the other mode fails, by coupled modes, when the two faces lie too far apart"}};
+  Keeps<Real> parted{
+      this,
+      {"parted", On::bonds, "1", "1 when the faces have slid past one another, 0.5 in the step in which they do"}};
+  Keeps<Real> extra_dissipation{this,
+                                {"extra-dissipation", On::bonds, "J",
+                                 "Energy dissipated beyond what the largest openings tell: when the other mode fails, "
+                                 "by coupled modes, when the two faces lie too far apart"}};
   Writes<Real> damage{this, field::damage};
   Writes<Real> opening{this, opening_field};
   Writes<Real> sliding{this, sliding_field};
 
   void check(Complaints& complaints) const override {
     if (*area_rule == "normalised" && !interface_area.given())
-      complaints.error(area_rule.at(), "'area' normalised needs 'interface-area', the area that all contacts together stand for");
+      complaints.error(area_rule.at(),
+                       "'area' normalised needs 'interface-area', the area that all contacts together stand for");
     check_normal(complaints);
-    if (coupled() && *modes != "both") complaints.error(coupling.at(), "'coupling' joins opening and sliding: it needs modes=\"both\"");
+    if (coupled() && *modes != "both")
+      complaints.error(coupling.at(), "'coupling' joins opening and sliding: it needs modes=\"both\"");
     if (exponent.given() != (*coupling == "benzeggagh-kenane"))
-      complaints.error(exponent.given() ? exponent.at() : coupling.at(), "'exponent' stands with coupling=\"benzeggagh-kenane\", and only there");
+      complaints.error(exponent.given() ? exponent.at() : coupling.at(),
+                       "'exponent' stands with coupling=\"benzeggagh-kenane\", and only there");
     else if (strength.given() && energy_.given() && onset.given() + onset_ratio.given() + stiffness.given() == 1)
       check_softening(complaints);
   }
 
   void choose() override {
     const bool slides = *modes != "normal", opens = *modes != "shear";
-    for (FieldUse* use : {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&torque), static_cast<FieldUse*>(&arm1),
-                          static_cast<FieldUse*>(&arm2), static_cast<FieldUse*>(&sliding)})
+    for (FieldUse* use :
+         {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&torque), static_cast<FieldUse*>(&arm1),
+          static_cast<FieldUse*>(&arm2), static_cast<FieldUse*>(&sliding)})
       use->want(slides || carried());
-    for (FieldUse* use : {static_cast<FieldUse*>(&normal1), static_cast<FieldUse*>(&normal2), static_cast<FieldUse*>(&parted)}) use->want(carried());
+    for (FieldUse* use :
+         {static_cast<FieldUse*>(&normal1), static_cast<FieldUse*>(&normal2), static_cast<FieldUse*>(&parted)})
+      use->want(carried());
     length.want(!carried());
     largest_opening.want(opens && !coupled());
     largest_sliding.want(slides && !coupled());
@@ -121,11 +209,12 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
       const Index j = table.second()[row];
       const Vec3 apart = position[j] - position[i];
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
-        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a contact between them has no normal; move one "
-                                 "of them or leave it out of the sets",
+        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a contact between them has no "
+                                 "normal; move one of them or leave it out of the sets",
                                  i, j, *name));
       if (length) length[row] = apart.norm();
-      area[row] = *area_radius == "mean" ? contact_area(radius[i], radius[j]) : contact_area_on_large(std::min(radius[i], radius[j]));
+      area[row] = *area_radius == "mean" ? contact_area(radius[i], radius[j])
+                                         : contact_area_on_large(std::min(radius[i], radius[j]));
       sum += area[row];
       if (integrity) integrity[row] = 1;
       if (!arm1) continue;
@@ -150,9 +239,11 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
   std::string caution() const override {
     constexpr Real little = 10;  // degrees
     if (*modes != "both" || !(tilt_ > little)) return "";
-    return fmt::format("its lines of centres lie {:.0f} degrees off their mean (rms): measured against them, contacts lock when the interface is sheared and take "
-                       "more than their strength and energy; normal=\"plane\", or \"axis\" around a fibre, gives them the interface's normal",
-                       tilt_);
+    return fmt::format(
+        "its lines of centres lie {:.0f} degrees off their mean (rms): measured against them, contacts lock when the "
+        "interface is sheared and take more than their strength and energy; normal=\"plane\", or \"axis\" around a "
+        "fibre, gives them the interface's normal",
+        tilt_);
   }
 
   Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
@@ -204,23 +295,27 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
 
   void check_normal(Complaints& complaints) const {
     const auto belongs = [&](const ParamBase& param, const char* which) {
-      if (param.given() && *normal != which) complaints.error(param.at(), fmt::format("'{}' is for normal=\"{}\", and this is \"{}\"", param.info().name, which, *normal));
+      if (param.given() && *normal != which)
+        complaints.error(param.at(), fmt::format("'{}' is for normal=\"{}\", and this is \"{}\"", param.info().name,
+                                                 which, *normal));
     };
     belongs(plane_normal, "plane");
     belongs(axis_point, "axis");
     belongs(axis_direction, "axis");
     for (const Param<Vec3>* direction : {&plane_normal, &axis_direction})
-      if (direction->given() && !(direction->value().norm() > 0)) complaints.error(direction->at(), fmt::format("'{}' must have a direction", direction->info().name));
+      if (direction->given() && !(direction->value().norm() > 0))
+        complaints.error(direction->at(), fmt::format("'{}' must have a direction", direction->info().name));
     if (axis_point.given() != axis_direction.given())
-      complaints.error((axis_point.given() ? axis_point : axis_direction).at(), "'axis-point' and 'axis-direction' stand together, or neither does");
+      complaints.error((axis_point.given() ? axis_point : axis_direction).at(),
+                       "'axis-point' and 'axis-direction' stand together, or neither does");
   }
 
   void check_softening(Complaints& complaints) const {
     const ParamBase& cause = onset.given() ? static_cast<const ParamBase&>(onset) : stiffness;
     for (const Softening<Real>& mode : {opening_law(), sliding_law()})
       if (!is_softening(mode)) {
-        complaints.error(cause.at(), fmt::format("the onset u_e = {:.4g} m must be below u_p = 2 G / sigma = {:.4g} m: give a larger "
-                                                 "'stiffness' or 'energy', or a smaller 'onset'",
+        complaints.error(cause.at(), fmt::format("the onset u_e = {:.4g} m must be below u_p = 2 G / sigma = {:.4g} m: "
+                                                 "give a larger 'stiffness' or 'energy', or a smaller 'onset'",
                                                  mode.onset, mode.open));
         return;
       }
@@ -228,9 +323,10 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     const MixedMode mixed = mixed_law();
     for (int k = 0; k <= 100; ++k)
       if (!is_softening(mixed.at_mix(Real(k) / 100))) {
-        complaints.error(coupling.at(), fmt::format("at a mode mix of {:.2f} the energy of this coupling is less than what is stored when damage starts: give a "
-                                                    "larger 'stiffness' or a smaller 'onset' or 'exponent'",
-                                                    Real(k) / 100));
+        complaints.error(coupling.at(),
+                         fmt::format("at a mode mix of {:.2f} the energy of this coupling is less than what is stored "
+                                     "when damage starts: give a larger 'stiffness' or a smaller 'onset' or 'exponent'",
+                                     Real(k) / 100));
         return;
       }
   }
@@ -257,15 +353,17 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     for (Index row = 0; row < table.size(); ++row) {
       const Index first = table.first()[row], second = table.second()[row];
       const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
-      meetings.push_back({first, second, position[first] + rotate(orientation[first], arm1[row]), position[second] - position[first],
-                          (one[i] && other[j]) - (one[j] && other[i])});
+      meetings.push_back({first, second, position[first] + rotate(orientation[first], arm1[row]),
+                          position[second] - position[first], (one[i] && other[j]) - (one[j] && other[i])});
     }
     InterfaceNormals finder(std::move(meetings), normal.at());
-    const std::vector<Vec3> normals = *normal == "plane"   ? finder.of_plane(plane_normal.given() ? std::optional<Vec3>(*plane_normal) : std::nullopt)
-                                      : axis_point.given() ? finder.of_axis({*axis_point, axis_direction->normalized()})
-                                                           : finder.of_fibres(domain.set((*between)[0]), position.view(), radius.view());
+    const std::vector<Vec3> normals =
+        *normal == "plane"   ? finder.of_plane(plane_normal.given() ? std::optional<Vec3>(*plane_normal) : std::nullopt)
+        : axis_point.given() ? finder.of_axis({*axis_point, axis_direction->normalized()})
+                             : finder.of_fibres(domain.set((*between)[0]), position.view(), radius.view());
     for (Index row = 0; row < table.size(); ++row) {
-      const auto carried = carried_normals(normals[static_cast<std::size_t>(row)], orientation[table.first()[row]], orientation[table.second()[row]]);
+      const auto carried = carried_normals(normals[static_cast<std::size_t>(row)], orientation[table.first()[row]],
+                                           orientation[table.second()[row]]);
       normal1.set(row, carried.normal1);
       normal2.set(row, carried.normal2);
     }
@@ -287,14 +385,29 @@ class CohesiveContact final : public BondLawOf<CohesiveOpening, PairFacesLaw<Sli
     return softening_by_stiffness(sigma, G, *stiffness);
   }
   Softening<Real> opening_law() const { return mode(*strength, *energy_); }
-  Softening<Real> sliding_law() const { return mode(shear_strength.given() ? *shear_strength : *strength, shear_energy.given() ? *shear_energy : *energy_); }
+  Softening<Real> sliding_law() const {
+    return mode(shear_strength.given() ? *shear_strength : *strength, shear_energy.given() ? *shear_energy : *energy_);
+  }
   MixedMode mixed_law() const {
     return {opening_law(), sliding_law(), {*coupling == "linear", UnitPower(exponent.given() ? *exponent : 1)}};
   }
 
   CohesiveColumns columns() const {
-    return {length.view(), area.view(), arm1.view(), arm2.view(), normal1.view(), normal2.view(), largest_opening.view(), largest_sliding.view(),
-            integrity.view(), mix.view(), parted.view(), extra_dissipation.view(), damage.view(), opening.view(), sliding.view()};
+    return {length.view(),
+            area.view(),
+            arm1.view(),
+            arm2.view(),
+            normal1.view(),
+            normal2.view(),
+            largest_opening.view(),
+            largest_sliding.view(),
+            integrity.view(),
+            mix.view(),
+            parted.view(),
+            extra_dissipation.view(),
+            damage.view(),
+            opening.view(),
+            sliding.view()};
   }
 
   Real literal_area_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// The laws of a cohesive contact as the loop over bonds runs them: one for each way of finding the opening, and each choice of modes.
+// The laws of a cohesive contact as the loop over bonds runs them: one for each way of finding the opening, and each
+// choice of modes.
 
 #include "core/mechanics/cohesive_stiffness.hpp"
 #include "core/plugin/bond_loop.hpp"
@@ -53,7 +54,9 @@ struct CohesiveOpening : CohesiveColumns {
     return at(area) * dissipated_per_area<Real>(law, at(largest_opening));
   }
 
-  Matrix12 undamaged(const One& at, const Ends<Real>& ends) const { return cohesive_stiffness(law, rest(at), ends.apart, 0, CohesiveSlope::undamaged); }
+  Matrix12 undamaged(const One& at, const Ends<Real>& ends) const {
+    return cohesive_stiffness(law, rest(at), ends.apart, 0, CohesiveSlope::undamaged);
+  }
   bool has_failed(const One& at) const { return at(largest_opening) >= law.open; }
   bool softens(const One& at) const { return at(largest_opening) > law.onset; }
   bool has_slid(const One&) const { return false; }
@@ -79,10 +82,11 @@ struct CohesiveFaces : CohesiveColumns {
     const auto before = recall(at);
     const auto now = cohesive_state<Modes>(modes, here, size, before);
     if constexpr (pass.settle) {
-      if constexpr (carried || Modes::releases) at.store(extra_dissipation, at(extra_dissipation) + cohesive_lost<Modes>(modes, here, size, before, now.after));
+      if constexpr (carried || Modes::releases)
+        at.store(extra_dissipation, at(extra_dissipation) + cohesive_lost<Modes>(modes, here, size, before, now.after));
       remember(at, now.after);
-      at.flag((modes.softens(now.after.modes) && !modes.softens(before.modes)) || (modes.failed(now.after.modes) && !modes.failed(before.modes)) ||
-              now.after.parted > before.parted);
+      at.flag((modes.softens(now.after.modes) && !modes.softens(before.modes)) ||
+              (modes.failed(now.after.modes) && !modes.failed(before.modes)) || now.after.parted > before.parted);
     }
     if constexpr (pass.sections) {
       if (opening) at.store(opening, here.opening.normal);
@@ -92,7 +96,8 @@ struct CohesiveFaces : CohesiveColumns {
     return cohesive_wrench(modes, here, size, now.share);
   }
 
-  /// Forces of this step that act no more from its end on: of a mode that held until the other failed, or of faces that part.
+  /// Forces of this step that act no more from its end on: of a mode that held until the other failed, or of faces that
+  /// part.
   Wrench<Real> ended(const One& at, const TurningEnds<Real>& ends) const {
     const auto here = faces(at, ends);
     const auto history = recall(at);
@@ -100,7 +105,8 @@ struct CohesiveFaces : CohesiveColumns {
     const Openings<Real> after = modes.share(here.opening, history.modes, done);
     if (parts(history)) return cohesive_wrench(modes, here, at(area), after);
     const Openings<Real> before = modes.share(here.opening, history.modes, false);
-    return cohesive_wrench(modes, here, at(area), Openings<Real>{before.normal - after.normal, before.shear - after.shear});
+    return cohesive_wrench(modes, here, at(area),
+                           Openings<Real>{before.normal - after.normal, before.shear - after.shear});
   }
   bool parts(const One& at) const { return parts(recall(at)); }
 
@@ -120,7 +126,9 @@ struct CohesiveFaces : CohesiveColumns {
       return softened;
   }
 
-  Matrix12 undamaged(const One& at, const TurningEnds<Real>& ends) const { return undamaged_stiffness(modes, faces(at, ends), at(area)); }
+  Matrix12 undamaged(const One& at, const TurningEnds<Real>& ends) const {
+    return undamaged_stiffness(modes, faces(at, ends), at(area));
+  }
   bool has_failed(const One& at) const { return modes.failed(recall(at).modes) || recall(at).parted > 0; }
   bool softens(const One& at) const { return modes.softens(recall(at).modes); }
   /// Of a contact that has failed: by sliding, rather than by opening.

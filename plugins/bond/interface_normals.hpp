@@ -1,6 +1,6 @@
 #pragma once
-// Normals of the contacts of an interface when they are bonded: of the plane that it lies in, or radial from the axis of a fibre. They
-// point from the first set of `between` to the second. docs/theory/cohesive-contact.md
+// Normals of the contacts of an interface when they are bonded: of the plane that it lies in, or radial from the axis
+// of a fibre. They point from the first set of `between` to the second. docs/theory/cohesive-contact.md
 
 #include <fmt/format.h>
 
@@ -33,7 +33,8 @@ class InterfaceNormals {
   /// `at` is the place in the deck that complaints name.
   InterfaceNormals(std::vector<Meeting> meetings, Location at) : meetings_(std::move(meetings)), at_(std::move(at)) {}
 
-  /// Of a plane with this normal, of either sign; of the plane of least squares through the points of contact where none is given.
+  /// Of a plane with this normal, of either sign; of the plane of least squares through the points of contact where
+  /// none is given.
   std::vector<Vec3> of_plane(const std::optional<Vec3>& given) {
     const Vec3 normal = given ? Vec3(given->normalized()) : fitted();
     return turned_to_second(std::vector<Vec3>(meetings_.size(), normal));
@@ -44,16 +45,19 @@ class InterfaceNormals {
     return radial([&](const Meeting&) { return axis; });
   }
 
-  /// Away from the fibres that are rows of elements of the first set: each goes, at an element, where its neighbours lie.
-  std::vector<Vec3> of_fibres(std::span<const Index> fibre, const View<const Vec3>& position, const View<const Real>& radius) {
+  /// Away from the fibres that are rows of elements of the first set: each goes, at an element, where its neighbours
+  /// lie.
+  std::vector<Vec3> of_fibres(std::span<const Index> fibre, const View<const Vec3>& position,
+                              const View<const Real>& radius) {
     const std::vector<Vec3> directions = directions_along(fibre, position, radius);
     return radial([&](const Meeting& m) {
-      if (m.order == 0) refuse(at_, "rows of elements give an axis only between two sets: the fibres first, then what is around them");
+      if (m.order == 0)
+        refuse(at_, "rows of elements give an axis only between two sets: the fibres first, then what is around them");
       const Index element = m.order > 0 ? m.first : m.second;
       const Vec3& direction = directions[static_cast<std::size_t>(element)];
       if (direction.isZero())
-        refuse(at_, fmt::format("element {} of the first set of 'between' does not lie in a row with its neighbours of that set: name the "
-                                "fibre's set first, or give 'axis-point' and 'axis-direction'",
+        refuse(at_, fmt::format("element {} of the first set of 'between' does not lie in a row with its neighbours of "
+                                "that set: name the fibre's set first, or give 'axis-point' and 'axis-direction'",
                                 element));
       return Axis{position[element], direction};
     });
@@ -63,8 +67,9 @@ class InterfaceNormals {
   const std::string& remark() const { return remark_; }
 
  private:
-  static constexpr Real thin = 0.3;        // a plane's rms thickness over its smaller rms width, at most
-  static constexpr Real straight = 0.1;    // rms distance of neighbours from the line through them over that along it, at most
+  static constexpr Real thin = 0.3;  // a plane's rms thickness over its smaller rms width, at most
+  static constexpr Real straight =
+      0.1;  // rms distance of neighbours from the line through them over that along it, at most
   static constexpr Real one_sided = 0.05;  // mean of n.d over mean of |d|, at least
 
   Vec3 fitted() {
@@ -72,8 +77,8 @@ class InterfaceNormals {
     for (const Meeting& m : meetings_) points.push_back(m.point);
     const Spread spread = spread_of(points);
     if (points.size() < 3 || !(spread.rms[1] > 1e-6 * spread.rms[2]) || !(spread.rms[0] <= thin * spread.rms[1]))
-      refuse(at_, fmt::format("no plane follows from the points of contact ({}), which spread {:.3g}, {:.3g} and {:.3g} m along three "
-                              "directions: give 'plane-normal'",
+      refuse(at_, fmt::format("no plane follows from the points of contact ({}), which spread {:.3g}, {:.3g} and "
+                              "{:.3g} m along three directions: give 'plane-normal'",
                               points.size(), spread.rms[2], spread.rms[1], spread.rms[0]));
     const Vec3& n = spread.direction[0];
     remark_ = fmt::format(", fitted to points of contact that lie {:.3g} m off the plane (rms)", spread.rms[0]);
@@ -88,7 +93,8 @@ class InterfaceNormals {
       const Vec3 arm = m.point - axis.point;
       const Vec3 out = arm - axis.direction * axis.direction.dot(arm);
       if (!(out.norm() > 1e-3 * m.apart.norm()))
-        refuse(at_, fmt::format("the contact of elements {} and {} lies on the axis, which gives it no radius: leave it out with 'where'",
+        refuse(at_, fmt::format("the contact of elements {} and {} lies on the axis, which gives it no radius: leave "
+                                "it out with 'where'",
                                 m.first, m.second));
       normals.push_back(out.normalized());
     }
@@ -109,8 +115,8 @@ class InterfaceNormals {
       const Meeting& m = meetings_[k];
       const Real across = normals[k].dot(m.apart);
       if (m.order == 0 && !(std::abs(across) > 1e-3 * m.apart.norm()))
-        refuse(at_, fmt::format("elements {} and {} are of both sets, and neither lies before the other along the normal: name two sets that "
-                                "have no element in common",
+        refuse(at_, fmt::format("elements {} and {} are of both sets, and neither lies before the other along the "
+                                "normal: name two sets that have no element in common",
                                 m.first, m.second));
       if ((m.order == 0 ? across : m.order * side) < 0) normals[k] = -normals[k];
     }
@@ -120,12 +126,15 @@ class InterfaceNormals {
 
   void say_tilt(const std::vector<Vec3>& normals) {
     Real least = 1;
-    for (std::size_t k = 0; k < meetings_.size(); ++k) least = std::min(least, normals[k].dot(meetings_[k].apart) / meetings_[k].apart.norm());
-    remark_ += fmt::format("; lines of centres are up to {:.0f} deg from their normal", std::acos(std::clamp(least, Real(-1), Real(1))) * 180 / std::numbers::pi);
+    for (std::size_t k = 0; k < meetings_.size(); ++k)
+      least = std::min(least, normals[k].dot(meetings_[k].apart) / meetings_[k].apart.norm());
+    remark_ += fmt::format("; lines of centres are up to {:.0f} deg from their normal",
+                           std::acos(std::clamp(least, Real(-1), Real(1))) * 180 / std::numbers::pi);
   }
 
   /// For each element that lies in a row with those that it touches: the way of the row; else zero.
-  static std::vector<Vec3> directions_along(std::span<const Index> fibre, const View<const Vec3>& position, const View<const Real>& radius) {
+  static std::vector<Vec3> directions_along(std::span<const Index> fibre, const View<const Vec3>& position,
+                                            const View<const Real>& radius) {
     std::vector<Vec3> place;
     std::vector<Real> size;
     Index last = 0;
@@ -140,7 +149,8 @@ class InterfaceNormals {
       std::vector<Vec3> points{place[k]};
       for (const Index other : near.of(k)) points.push_back(place[static_cast<std::size_t>(other)]);
       const Spread spread = spread_of(points);
-      if (points.size() > 1 && spread.rms[1] <= straight * spread.rms[2]) directions[static_cast<std::size_t>(fibre[k])] = spread.direction[2];
+      if (points.size() > 1 && spread.rms[1] <= straight * spread.rms[2])
+        directions[static_cast<std::size_t>(fibre[k])] = spread.direction[2];
     }
     return directions;
   }

@@ -42,9 +42,15 @@ struct SpringLaw {
 /// Spring: resists stretching along the line of centres, and nothing else.   docs/theory/spring.md
 class Spring final : public BondLawOf<SpringLaw> {
  public:
-  static constexpr const char* about = "Springs between the centres of neighbouring elements: they resist stretching, and neither bending nor twisting";
-  Param<Real> young{this, {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus E of the springs"}};
-  Param<Real> radius_ratio{this, {.name = "radius-ratio", .range = positive, .doc = "Radius of a spring's section over the mean radius of its two elements", .fallback = "1"}};
+  static constexpr const char* about =
+      "Springs between the centres of neighbouring elements: they resist stretching, and neither bending nor twisting";
+  Param<Real> young{this,
+                    {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus E of the springs"}};
+  Param<Real> radius_ratio{this,
+                           {.name = "radius-ratio",
+                            .range = positive,
+                            .doc = "Radius of a spring's section over the mean radius of its two elements",
+                            .fallback = "1"}};
 
   Reads<Vec3> position{this, field::position};
   Reads<Real> radius{this, field::radius};
@@ -60,8 +66,8 @@ class Spring final : public BondLawOf<SpringLaw> {
       const Index j = table.second()[row];
       const Real distance = (position[j] - position[i]).norm();
       if (!(distance > 1e-12 * (radius[i] + radius[j])))
-        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a spring between them has no direction; move one "
-                                 "of them or leave it out of the sets",
+        refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a spring between them has no "
+                                 "direction; move one of them or leave it out of the sets",
                                  i, j, *name));
       const SpringRest<Real> rest = round_spring(distance, *young, *radius_ratio * 0.5 * (radius[i] + radius[j]));
       length[row] = rest.length;
@@ -74,7 +80,9 @@ class Spring final : public BondLawOf<SpringLaw> {
   }
 
  protected:
-  AnyLaw law() const override { return SpringLaw{length.view(), axial.view(), *young, axial_force.view(), section_radius.view()}; }
+  AnyLaw law() const override {
+    return SpringLaw{length.view(), axial.view(), *young, axial_force.view(), section_radius.view()};
+  }
 };
 
 }  // namespace beadwork

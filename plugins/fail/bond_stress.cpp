@@ -8,11 +8,14 @@ namespace beadwork {
 /// docs/theory/bond-failure.md
 class BondStress final : public Failure {
  public:
-  static constexpr const char* about = "A bond breaks when the largest stress in its section reaches the strength (BBF)";
-  Param<Real> strength{this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Stress sigma_fail at which a bond breaks"}};
+  static constexpr const char* about =
+      "A bond breaks when the largest stress in its section reaches the strength (BBF)";
+  Param<Real> strength{
+      this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Stress sigma_fail at which a bond breaks"}};
   Param<std::string> measure{this,
                              {.name = "measure",
-                              .doc = "axial: N/A, which is all that springs have; axial-bending: largest normal stress of the section; principal: with the shear of twisting",
+                              .doc = "axial: N/A, which is all that springs have; axial-bending: largest normal stress "
+                                     "of the section; principal: with the shear of twisting",
                               .fallback = "axial-bending",
                               .choices = {"axial", "axial-bending", "principal"}}};
   Reads<Real> axial_force{this, field::axial_force};
@@ -37,7 +40,8 @@ class BondStress final : public Failure {
   Real stress(Index b) const {
     const Real moment = bending_moment ? bending_moment[b] : 0;
     const Real twist = twisting_moment ? twisting_moment[b] : 0;
-    const BeamStress<Real> all = beam_stress<Real>(BeamSection<Real>{axial_force[b], moment, moment, twist}, section_radius[b]);
+    const BeamStress<Real> all =
+        beam_stress<Real>(BeamSection<Real>{axial_force[b], moment, moment, twist}, section_radius[b]);
     return chosen_ == 0 ? all.axial : chosen_ == 1 ? all.axial_bending : all.principal;
   }
 };

@@ -6,13 +6,29 @@ namespace beadwork {
 /// reached.   docs/theory/packing.md
 class ForcedFilling final : public PackingStep {
  public:
-  static constexpr const char* about = "Second step of filling: forces the rest in and re-arranges, until the coordination number is reached";
-  Param<Real> coordination{this, {.name = "coordination", .range = positive, .doc = "Contacts of an element, mean over those that are counted", .fallback = "6.2"}};
-  Param<std::string> counted{this, {.name = "counted", .doc = "Which elements are counted: all, or those in the bulk, farther than 3 mean radii from walls and obstacles, where walls take no contacts away", .fallback = "all", .choices = {"all", "bulk"}}};
-  Param<Real> tolerance{this, {.name = "tolerance", .range = {0, 1, true, true}, .doc = "Largest overlap over the sum of radii at which an element is put in", .fallback = "0.3"}};
+  static constexpr const char* about =
+      "Second step of filling: forces the rest in and re-arranges, until the coordination number is reached";
+  Param<Real> coordination{this,
+                           {.name = "coordination",
+                            .range = positive,
+                            .doc = "Contacts of an element, mean over those that are counted",
+                            .fallback = "6.2"}};
+  Param<std::string> counted{this,
+                             {.name = "counted",
+                              .doc = "Which elements are counted: all, or those in the bulk, farther than 3 mean radii "
+                                     "from walls and obstacles, where walls take no contacts away",
+                              .fallback = "all",
+                              .choices = {"all", "bulk"}}};
+  Param<Real> tolerance{this,
+                        {.name = "tolerance",
+                         .range = {0, 1, true, true},
+                         .doc = "Largest overlap over the sum of radii at which an element is put in",
+                         .fallback = "0.3"}};
 
  protected:
-  void go_on(packing::Packing& packing) override { packing::forced_filling(packing, {*coordination, *tolerance, *counted == "bulk"}); }
+  void go_on(packing::Packing& packing) override {
+    packing::forced_filling(packing, {*coordination, *tolerance, *counted == "bulk"});
+  }
 };
 
 }  // namespace beadwork

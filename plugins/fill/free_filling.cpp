@@ -10,22 +10,59 @@ namespace beadwork {
 /// docs/theory/packing.md
 class FreeFilling final : public ElementMaker {
  public:
-  static constexpr const char* about = "First step of filling: elements at random places without overlap, until nothing more fits";
-  Param<Vec3> box{this, {.name = "box", .unit = "m", .range = positive, .doc = "Extents of the box to be filled", .one_of = "shape"}};
-  Param<Vec3> from{this, {.name = "from", .unit = "m", .doc = "Lowest corner of the box, or centre of one end of the cylinder", .fallback = "0 0 0 m"}};
-  Param<Real> cylinder_radius{this, {.name = "cylinder-radius", .unit = "m", .range = positive, .doc = "Radius of the cylinder to be filled, from 'from' to 'to'", .one_of = "shape"}};
+  static constexpr const char* about =
+      "First step of filling: elements at random places without overlap, until nothing more fits";
+  Param<Vec3> box{
+      this,
+      {.name = "box", .unit = "m", .range = positive, .doc = "Extents of the box to be filled", .one_of = "shape"}};
+  Param<Vec3> from{this,
+                   {.name = "from",
+                    .unit = "m",
+                    .doc = "Lowest corner of the box, or centre of one end of the cylinder",
+                    .fallback = "0 0 0 m"}};
+  Param<Real> cylinder_radius{this,
+                              {.name = "cylinder-radius",
+                               .unit = "m",
+                               .range = positive,
+                               .doc = "Radius of the cylinder to be filled, from 'from' to 'to'",
+                               .one_of = "shape"}};
   Param<Vec3> to{this, {.name = "to", .unit = "m", .doc = "Centre of the other end of the cylinder", .optional = true}};
-  Param<std::int64_t> count{this, {.name = "count", .range = {1}, .doc = "Number of elements of the finished packing", .one_of = "size"}};
-  Param<Real> mean_radius{this, {.name = "mean-radius", .unit = "m", .range = positive, .doc = "Mean radius; the number of elements follows", .one_of = "size"}};
-  Param<std::string> law{this, {.name = "law", .doc = "How radii are distributed", .fallback = "uniform", .choices = {"uniform", "truncated-gaussian"}}};
-  Param<Real> spread{this, {.name = "spread", .range = {0, 1, false, true}, .doc = "Radii lie within (1 - spread) and (1 + spread) of their mean", .fallback = "0.25"}};
-  Param<Real> deviation{this, {.name = "deviation", .range = positive, .doc = "Standard deviation of the Gaussian over the mean, before it is cut; 0.125 where absent", .optional = true}};
-  Param<std::vector<std::string>> around{this, {.name = "around", .doc = "Sets that are there already and do not move", .optional = true, .role = Role::set}};
+  Param<std::int64_t> count{
+      this, {.name = "count", .range = {1}, .doc = "Number of elements of the finished packing", .one_of = "size"}};
+  Param<Real> mean_radius{this,
+                          {.name = "mean-radius",
+                           .unit = "m",
+                           .range = positive,
+                           .doc = "Mean radius; the number of elements follows",
+                           .one_of = "size"}};
+  Param<std::string> law{this,
+                         {.name = "law",
+                          .doc = "How radii are distributed",
+                          .fallback = "uniform",
+                          .choices = {"uniform", "truncated-gaussian"}}};
+  Param<Real> spread{this,
+                     {.name = "spread",
+                      .range = {0, 1, false, true},
+                      .doc = "Radii lie within (1 - spread) and (1 + spread) of their mean",
+                      .fallback = "0.25"}};
+  Param<Real> deviation{
+      this,
+      {.name = "deviation",
+       .range = positive,
+       .doc = "Standard deviation of the Gaussian over the mean, before it is cut; 0.125 where absent",
+       .optional = true}};
+  Param<std::vector<std::string>> around{
+      this,
+      {.name = "around", .doc = "Sets that are there already and do not move", .optional = true, .role = Role::set}};
 
   void check(Complaints& complaints) const override {
-    if (cylinder_radius.in_deck() && !to.given()) complaints.error(cylinder_radius.at(), "a cylinder needs 'to', the centre of its other end");
-    if (to.in_deck() && !cylinder_radius.in_deck()) complaints.error(to.at(), "'to' belongs to a cylinder; a box reaches from 'from' as far as 'box' says");
-    if (deviation.in_deck() && *law == "uniform") complaints.error(deviation.at(), "'deviation' belongs to law=\"truncated-gaussian\"; a uniform law has its 'spread' only");
+    if (cylinder_radius.in_deck() && !to.given())
+      complaints.error(cylinder_radius.at(), "a cylinder needs 'to', the centre of its other end");
+    if (to.in_deck() && !cylinder_radius.in_deck())
+      complaints.error(to.at(), "'to' belongs to a cylinder; a box reaches from 'from' as far as 'box' says");
+    if (deviation.in_deck() && *law == "uniform")
+      complaints.error(deviation.at(),
+                       "'deviation' belongs to law=\"truncated-gaussian\"; a uniform law has its 'spread' only");
   }
 
   void fill(Domain& domain, const FillJob& job) override {
@@ -47,7 +84,8 @@ class FreeFilling final : public ElementMaker {
       packing::Packing packing = packing::free_filling(request);
       for (const std::string& warning : packing.warnings) job.log.warn(warning);
       const Index first = add_spheres(domain, packing.position, packing.radius);
-      job.log.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(), packing.waiting.size(), packing.seconds));
+      job.log.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(),
+                              packing.waiting.size(), packing.seconds));
       const auto rows = static_cast<Index>(packing.position.size());
       begun_ = std::make_shared<PackingInProgress>(PackingInProgress{std::move(packing), *density, first, rows});
       (*job.in_progress)[*set] = begun_;
@@ -58,8 +96,9 @@ class FreeFilling final : public ElementMaker {
     const auto begun = std::exchange(begun_, nullptr);  // the memory is needed for the run
     const std::size_t placed = begun->packing.position.size(), waiting = begun->packing.waiting.size();
     if (waiting > 0)
-      job.log.warn(fmt::format("{}: only {} of {} elements found a place without overlap; <forced-filling set=\"{}\"/> places the rest", at().where(),
-                           placed, placed + waiting, *set));
+      job.log.warn(fmt::format(
+          "{}: only {} of {} elements found a place without overlap; <forced-filling set=\"{}\"/> places the rest",
+          at().where(), placed, placed + waiting, *set));
   }
 
  private:

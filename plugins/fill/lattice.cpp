@@ -11,13 +11,16 @@ class Lattice final : public ElementMaker {
   static constexpr const char* about = "Elements of one radius on a simple cubic lattice, touching along the axes";
   Param<Vec3> from{this, {.name = "from", .unit = "m", .doc = "Centre of the first element", .fallback = "0 0 0 m"}};
   Param<Vec3> count{this, {.name = "count", .range = {1}, .doc = "Number of elements along x, y and z"}};
-  Param<Real> radius{this, {.name = "radius", .unit = "m", .range = positive, .doc = "Radius; the spacing is twice that"}};
+  Param<Real> radius{this,
+                     {.name = "radius", .unit = "m", .range = positive, .doc = "Radius; the spacing is twice that"}};
 
   void check(Complaints& complaints) const override {
     for (int axis = 0; axis < 3; ++axis)
-      if (count->coeff(axis) != std::floor(count->coeff(axis))) complaints.error(count.at(), "'count' wants three whole numbers");
+      if (count->coeff(axis) != std::floor(count->coeff(axis)))
+        complaints.error(count.at(), "'count' wants three whole numbers");
     if (count->prod() > static_cast<Real>(most_elements))
-      complaints.error(count.at(), fmt::format("'count' asks for {} elements, more than rows can be numbered", count->prod()));
+      complaints.error(count.at(),
+                       fmt::format("'count' asks for {} elements, more than rows can be numbered", count->prod()));
   }
 
   void fill(Domain& domain, const FillJob& job) override {

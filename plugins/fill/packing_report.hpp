@@ -10,17 +10,21 @@
 
 namespace beadwork {
 
-/// Where a packing comes from: one that was read has neither seed nor law, and its walls are those of the box around it.
+/// Where a packing comes from: one that was read has neither seed nor law, and its walls are those of the box around
+/// it.
 enum class PackingSource { filling, file };
 
-inline std::string packing_json(const std::string& set, const std::string& step, const packing::PackingReport& r, PackingSource source) {
+inline std::string packing_json(const std::string& set, const std::string& step, const packing::PackingReport& r,
+                                PackingSource source) {
   const bool made = source == PackingSource::filling;
   const std::string seed = made ? fmt::format(R"("seed":{},)", r.seed) : R"("walls":"the box around the elements",)";
   const std::string law = made ? fmt::format(R"("kolmogorov_smirnov_distance":{:.4g},)", r.kolmogorov) : "";
   // Where no element is as far as that from walls, nothing can be said of the bulk.
-  const std::string bulk = r.bulk_count > 0 ? fmt::format(R"("coordination_bulk":{:.5g},"fabric_eigenvalues_bulk":[{:.5g}],"density_bulk":{:.5g},)", r.near.bulk,
-                                                          fmt::join(r.fabric_bulk, ","), r.density_bulk)
-                                            : "";
+  const std::string bulk =
+      r.bulk_count > 0
+          ? fmt::format(R"("coordination_bulk":{:.5g},"fabric_eigenvalues_bulk":[{:.5g}],"density_bulk":{:.5g},)",
+                        r.near.bulk, fmt::join(r.fabric_bulk, ","), r.density_bulk)
+          : "";
   return fmt::format(
       R"({{"set":"{}","step":"{}","elements":{},{}"seconds":{:.3g},)"
       R"("coordination":{:.5g},"coordination_without_rattlers":{:.5g},{})"
@@ -31,8 +35,8 @@ inline std::string packing_json(const std::string& set, const std::string& step,
       R"("crystalline_share":{:.4g},"radius_over_mean":{{"edges":[{:.6g}],"counts":[{}],"unit":"1"}}}})",
       set, step, r.count, seed, r.seconds, r.near.all, r.near.without_rattlers, bulk, r.touching.all,
       r.touching.without_rattlers, r.tolerance, r.rattlers, r.max_overlap, r.mean_overlap, fmt::join(r.fabric, ","),
-      r.density, r.mean_radius, r.min_radius, r.max_radius, law, r.bond_order,
-      r.crystalline_share, fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
+      r.density, r.mean_radius, r.min_radius, r.max_radius, law, r.bond_order, r.crystalline_share,
+      fmt::join(r.histogram_edges, ","), fmt::join(r.histogram, ","));
 }
 
 /// The contacts of an element, and how full the volume is.

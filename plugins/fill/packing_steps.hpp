@@ -33,7 +33,9 @@ void guarded(const Plugin& plugin, const Step& step) {
 
 /// Hands on what a step of a packing tells of its progress; when it will end nobody knows.
 inline packing::Tell teller(const FillJob& job, const Plugin& step, const std::string& set) {
-  return [&job, work = fmt::format("{} '{}'", step.tag(), set)](const std::string& detail) { job.progress({work, detail, {}, false}); };
+  return [&job, work = fmt::format("{} '{}'", step.tag(), set)](const std::string& detail) {
+    job.progress({work, detail, {}, false});
+  };
 }
 
 /// A step that goes on with a packing that an earlier one began.
@@ -54,7 +56,8 @@ class PackingStep : public SphereFiller {
     place(domain, progress);
     const auto report = packing::report(progress.packing);
     job.report(packing_json(*set, tag(), report, PackingSource::filling));
-    job.log.say(fmt::format("{}: {} elements, {}, {:.1f} s", tag(), report.count, packing_words(report), report.seconds));
+    job.log.say(
+        fmt::format("{}: {} elements, {}, {:.1f} s", tag(), report.count, packing_words(report), report.seconds));
   }
 
  protected:
@@ -65,7 +68,9 @@ class PackingStep : public SphereFiller {
     const std::size_t count = progress.packing.position.size(), before = static_cast<std::size_t>(progress.rows);
     if (count > before) {
       if (progress.first_row + progress.rows != domain.size())
-        refuse(at(), fmt::format("other elements were made since set '{}' was begun: finish one packing before the next", *set));
+        refuse(
+            at(),
+            fmt::format("other elements were made since set '{}' was begun: finish one packing before the next", *set));
       add_rows(domain, *set, count - before);
       progress.rows = static_cast<Index>(count);
     }

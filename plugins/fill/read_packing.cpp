@@ -16,12 +16,30 @@ namespace beadwork {
 /// Elements from a packing that was stored before: a run.h5, or a table of text.   docs/theory/packing.md
 class ReadPacking final : public ElementMaker {
  public:
-  static constexpr const char* about = "Elements from a stored packing: the first frame of a run.h5, or a table of text with a line for each element";
-  Param<std::string> file{this, {.name = "file", .doc = "The file, .h5 or a text: its path from the folder of the file that names it", .role = Role::file}};
-  Param<std::string> unit{this, {.name = "unit", .doc = "Unit of the lengths in a text; where absent that of its headings, m where these have none. A run.h5 states its own", .optional = true}};
-  Param<std::vector<std::string>> columns{this, {.name = "columns", .doc = "What the columns of a text hold, in their order: x, y, z, radius (r) or diameter (d), set, id, and - for one that is passed over; where absent its first line says it, or they are x y z radius", .optional = true}};
-  Param<std::string> of{this, {.name = "of", .doc = "Only the elements that form this set in the file", .optional = true}};
-  Param<std::vector<std::string>> sets{this, {.name = "sets", .doc = "Sets of the file that are made here too, under their names", .optional = true, .role = Role::makes_set}};
+  static constexpr const char* about =
+      "Elements from a stored packing: the first frame of a run.h5, or a table of text with a line for each element";
+  Param<std::string> file{this,
+                          {.name = "file",
+                           .doc = "The file, .h5 or a text: its path from the folder of the file that names it",
+                           .role = Role::file}};
+  Param<std::string> unit{this,
+                          {.name = "unit",
+                           .doc = "Unit of the lengths in a text; where absent that of its headings, m where these "
+                                  "have none. A run.h5 states its own",
+                           .optional = true}};
+  Param<std::vector<std::string>> columns{
+      this,
+      {.name = "columns",
+       .doc = "What the columns of a text hold, in their order: x, y, z, radius (r) or diameter (d), set, id, and - "
+              "for one that is passed over; where absent its first line says it, or they are x y z radius",
+       .optional = true}};
+  Param<std::string> of{this,
+                        {.name = "of", .doc = "Only the elements that form this set in the file", .optional = true}};
+  Param<std::vector<std::string>> sets{this,
+                                       {.name = "sets",
+                                        .doc = "Sets of the file that are made here too, under their names",
+                                        .optional = true,
+                                        .role = Role::makes_set}};
 
   void check(Complaints& complaints) const override {
     if (unit.in_deck()) {
@@ -33,7 +51,8 @@ class ReadPacking final : public ElementMaker {
     }
     if (columns.in_deck()) {
       if (const std::string why = why_no_columns(*columns); !why.empty()) complaints.error(columns.at(), why);
-      if (states_its_unit(*file)) complaints.error(columns.at(), "'columns' belongs to a text; a run.h5 says itself what it holds: leave it out");
+      if (states_its_unit(*file))
+        complaints.error(columns.at(), "'columns' belongs to a text; a run.h5 says itself what it holds: leave it out");
     }
   }
 
@@ -67,10 +86,16 @@ class ReadPacking final : public ElementMaker {
   void keep_sets(Domain& domain, const StoredPacking& packing, Index first, const FillJob& job) {
     std::vector<std::string> left;
     for (const auto& each : packing.sets)
-      if (std::find(sets->begin(), sets->end(), each.first) == sets->end() && !(of.given() && each.first == *of) && each.first != *set) left.push_back(each.first);
-    if (!left.empty()) job.log.say(fmt::format("{}: sets of {} that are not made here: {}; sets=\"...\" makes those that it names", tag(), *file, join(left)));
+      if (std::find(sets->begin(), sets->end(), each.first) == sets->end() && !(of.given() && each.first == *of) &&
+          each.first != *set)
+        left.push_back(each.first);
+    if (!left.empty())
+      job.log.say(fmt::format("{}: sets of {} that are not made here: {}; sets=\"...\" makes those that it names",
+                              tag(), *file, join(left)));
     for (const std::string& name : *sets) {
-      if (name == *set) refuse(sets.at(name), fmt::format("set '{}' holds all that are read: leave it out here, or give 'set' another name", name));
+      if (name == *set)
+        refuse(sets.at(name),
+               fmt::format("set '{}' holds all that are read: leave it out here, or give 'set' another name", name));
       Set& members = domain.sets()[name];
       for (const std::size_t k : recorded(packing, name)) members.push_back(first + static_cast<Index>(k));
     }
@@ -106,8 +131,10 @@ class ReadPacking final : public ElementMaker {
     job.report(packing_json(*set, tag(), report, PackingSource::file));
     job.log.say(fmt::format("{}: {} elements from {}, {}", tag(), report.count, *file, packing_words(report)));
     if (report.max_overlap > deep)
-      job.log.warn(fmt::format("{}: elements overlap by up to {:.2g} of the sum of their radii; if that is not meant, look whether the sizes in {} are "
-                           "radii or diameters, and in which unit", file.at().where(), report.max_overlap, *file));
+      job.log.warn(
+          fmt::format("{}: elements overlap by up to {:.2g} of the sum of their radii; if that is not meant, look "
+                      "whether the sizes in {} are radii or diameters, and in which unit",
+                      file.at().where(), report.max_overlap, *file));
   }
 };
 

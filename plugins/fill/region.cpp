@@ -10,9 +10,14 @@ namespace beadwork {
 /// A set of the elements whose centres fulfil a condition, found once after filling.
 class Region final : public Filler {
  public:
-  static constexpr const char* about = "Names the elements for which a condition on their centre and radius holds, once after filling";
+  static constexpr const char* about =
+      "Names the elements for which a condition on their centre and radius holds, once after filling";
   Param<std::string> set{this, {.name = "set", .doc = "Name of the new set", .role = Role::makes_set}};
-  Param<std::string> of{this, {.name = "of", .doc = "Only elements of this set; of all elements where absent", .optional = true, .role = Role::set}};
+  Param<std::string> of{this,
+                        {.name = "of",
+                         .doc = "Only elements of this set; of all elements where absent",
+                         .optional = true,
+                         .role = Role::set}};
   Param<Formula> where{this,
                        {.name = "where",
                         .unit = "",

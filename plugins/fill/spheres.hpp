@@ -24,10 +24,12 @@ class SphereFiller : public Filler {
   void require_room(const Domain& domain, std::size_t count) const {
     const auto room = static_cast<std::size_t>(most_elements - domain.size());
     if (count > room)
-      refuse(at(), fmt::format("{} elements more than the {} that are there cannot be numbered: a scene holds {} at most", count, domain.size(),
-                               most_elements));
+      refuse(at(),
+             fmt::format("{} elements more than the {} that are there cannot be numbered: a scene holds {} at most",
+                         count, domain.size(), most_elements));
     constexpr Real least_bytes = 200;  // place, radius, mass, velocity, force of an element, and a bond or two
-    if (const std::string why = why_no_memory(static_cast<Real>(count), "elements", least_bytes); !why.empty()) refuse(at(), why);
+    if (const std::string why = why_no_memory(static_cast<Real>(count), "elements", least_bytes); !why.empty())
+      refuse(at(), why);
   }
 
   /// New rows behind all others, members of the set; what stands in them is still to be given. Returns the first.
@@ -58,8 +60,12 @@ class SphereFiller : public Filler {
 /// A filling plugin that makes elements of one density in one set.
 class ElementMaker : public SphereFiller {
  public:
-  Param<std::string> set{this, {.name = "set", .doc = "Name of the set that the elements form; it may exist already", .role = Role::makes_set}};
-  Param<Real> density{this, {.name = "density", .unit = "kg/m^3", .range = positive, .doc = "Mass of an element over its volume 4/3 pi R^3"}};
+  Param<std::string> set{
+      this,
+      {.name = "set", .doc = "Name of the set that the elements form; it may exist already", .role = Role::makes_set}};
+  Param<Real> density{
+      this,
+      {.name = "density", .unit = "kg/m^3", .range = positive, .doc = "Mass of an element over its volume 4/3 pi R^3"}};
 
  protected:
   /// Returns the first row.

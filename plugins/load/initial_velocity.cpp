@@ -3,17 +3,31 @@
 
 namespace beadwork {
 
-/// Velocities at the start of a stage: v + g s + w x (x - c), with s the place along an axis; spins likewise. Those of a
-/// stage add up.
+/// Velocities at the start of a stage: v + g s + w x (x - c), with s the place along an axis; spins likewise. Those of
+/// a stage add up.
 class InitialVelocity final : public Load {
  public:
-  static constexpr const char* about = "Velocities at the start of the stage: uniform, linear along an axis, or a rigid spin; several on one element add up";
+  static constexpr const char* about =
+      "Velocities at the start of the stage: uniform, linear along an axis, or a rigid spin; several on one element "
+      "add up";
   Param<std::string> set{this, {.name = "set", .doc = "Set that gets the velocity", .role = Role::set}};
-  Param<Vec3> velocity{this, {.name = "velocity", .unit = "m/s", .doc = "The same for all elements of the set", .fallback = "0 0 0 m/s"}};
-  Param<Vec3> gradient{this, {.name = "gradient", .unit = "1/s", .doc = "Velocity that is added per length along 'along', from 'centre' on", .fallback = "0 0 0 s^-1"}};
-  Param<std::string> along{this, {.name = "along", .doc = "Axis of the gradient", .fallback = "x", .choices = {"x", "y", "z"}}};
-  Param<Vec3> spin{this, {.name = "spin", .unit = "1/s", .doc = "Angular velocity of the set as a rigid body about 'centre'", .fallback = "0 0 0 s^-1"}};
-  Param<Vec3> centre{this, {.name = "centre", .unit = "m", .doc = "Where gradient and spin give no velocity", .fallback = "0 0 0 m"}};
+  Param<Vec3> velocity{
+      this,
+      {.name = "velocity", .unit = "m/s", .doc = "The same for all elements of the set", .fallback = "0 0 0 m/s"}};
+  Param<Vec3> gradient{this,
+                       {.name = "gradient",
+                        .unit = "1/s",
+                        .doc = "Velocity that is added per length along 'along', from 'centre' on",
+                        .fallback = "0 0 0 s^-1"}};
+  Param<std::string> along{
+      this, {.name = "along", .doc = "Axis of the gradient", .fallback = "x", .choices = {"x", "y", "z"}}};
+  Param<Vec3> spin{this,
+                   {.name = "spin",
+                    .unit = "1/s",
+                    .doc = "Angular velocity of the set as a rigid body about 'centre'",
+                    .fallback = "0 0 0 s^-1"}};
+  Param<Vec3> centre{
+      this, {.name = "centre", .unit = "m", .doc = "Where gradient and spin give no velocity", .fallback = "0 0 0 m"}};
 
   Reads<Vec3> position{this, field::position};
   Keeps<Vec3> speed{this, field::velocity};

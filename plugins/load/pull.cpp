@@ -9,21 +9,44 @@ namespace beadwork {
 /// Moves a set along one axis with a prescribed velocity; the other axes stay free.
 class Pull final : public Load {
  public:
-  static constexpr const char* about = "Moves a set along one axis with a prescribed velocity: each element, or their mean only";
+  static constexpr const char* about =
+      "Moves a set along one axis with a prescribed velocity: each element, or their mean only";
   Param<std::string> set{this, {.name = "set", .doc = "Set that is moved", .role = Role::set}};
-  Param<std::string> axis{this, {.name = "axis", .doc = "Axis along which it is moved; an axis that is not named is free", .choices = {"x", "y", "z"}}};
-  Param<std::string> grip{this, {.name = "grip", .doc = "each element alike, or the mean over the set", .fallback = "each", .choices = {"each", "mean"}}};
-  Param<Real> velocity{this, {.name = "velocity", .unit = "m/s", .doc = "Velocity that is reached", .one_of = "motion"}};
-  Param<Real> rise{this, {.name = "rise", .unit = "s", .range = not_negative, .doc = "Time over which the velocity sets in, smoothly (no jump of acceleration)", .fallback = "0 s", .instead = "table"}};
-  Param<QuantityRows> table{this, {.name = "table", .doc = "Instead of 'velocity': times and velocities with units, joined by commas: \"0 s 0 m/s, 1 ms 2 m/s\"; straight lines between them", .columns = {"s", "m/s"}, .one_of = "motion"}};
+  Param<std::string> axis{this,
+                          {.name = "axis",
+                           .doc = "Axis along which it is moved; an axis that is not named is free",
+                           .choices = {"x", "y", "z"}}};
+  Param<std::string> grip{this,
+                          {.name = "grip",
+                           .doc = "each element alike, or the mean over the set",
+                           .fallback = "each",
+                           .choices = {"each", "mean"}}};
+  Param<Real> velocity{this,
+                       {.name = "velocity", .unit = "m/s", .doc = "Velocity that is reached", .one_of = "motion"}};
+  Param<Real> rise{this,
+                   {.name = "rise",
+                    .unit = "s",
+                    .range = not_negative,
+                    .doc = "Time over which the velocity sets in, smoothly (no jump of acceleration)",
+                    .fallback = "0 s",
+                    .instead = "table"}};
+  Param<QuantityRows> table{this,
+                            {.name = "table",
+                             .doc = "Instead of 'velocity': times and velocities with units, joined by commas: \"0 s 0 "
+                                    "m/s, 1 ms 2 m/s\"; straight lines between them",
+                             .columns = {"s", "m/s"},
+                             .one_of = "motion"}};
 
   void check(Complaints& complaints) const override {
-    if (table.in_deck() && rise.in_deck()) complaints.error(rise.at(), "'rise' belongs to 'velocity', a table has its own course");
+    if (table.in_deck() && rise.in_deck())
+      complaints.error(rise.at(), "'rise' belongs to 'velocity', a table has its own course");
     if (!table.given()) return;
-    if (table->front()[0] != 0) complaints.error(table.at(), "the first row of 'table' is that of the start of the stage, 0 s");
+    if (table->front()[0] != 0)
+      complaints.error(table.at(), "the first row of 'table' is that of the start of the stage, 0 s");
     for (std::size_t k = 1; k < table->size(); ++k)
       if ((*table)[k][0] <= (*table)[k - 1][0])
-        complaints.error(table.at(), fmt::format("the times of 'table' must increase, got {} s after {} s", format_number((*table)[k][0]), format_number((*table)[k - 1][0])));
+        complaints.error(table.at(), fmt::format("the times of 'table' must increase, got {} s after {} s",
+                                                 format_number((*table)[k][0]), format_number((*table)[k - 1][0])));
   }
 
   std::vector<Constraint> constraints() const override {

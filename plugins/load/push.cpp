@@ -9,8 +9,17 @@ class Push final : public Load {
   static constexpr const char* about = "Puts a force on a set, shared equally by its elements";
   Param<std::string> set{this, {.name = "set", .doc = "Set that is pushed", .role = Role::set}};
   Param<Vec3> force{this, {.name = "force", .unit = "N", .doc = "Total force on the set", .fallback = "0 0 0 N"}};
-  Param<Vec3> torque{this, {.name = "torque", .unit = "N.m", .doc = "Total torque, shared equally as couples on the elements", .fallback = "0 0 0 N.m"}};
-  Param<Real> rise{this, {.name = "rise", .unit = "s", .range = not_negative, .doc = "Time over which the force sets in, smoothly", .fallback = "0 s"}};
+  Param<Vec3> torque{this,
+                     {.name = "torque",
+                      .unit = "N.m",
+                      .doc = "Total torque, shared equally as couples on the elements",
+                      .fallback = "0 0 0 N.m"}};
+  Param<Real> rise{this,
+                   {.name = "rise",
+                    .unit = "s",
+                    .range = not_negative,
+                    .doc = "Time over which the force sets in, smoothly",
+                    .fallback = "0 s"}};
 
   Adds<Vec3> forces{this, field::force};
   Adds<Vec3> torques{this, field::torque};
@@ -40,12 +49,14 @@ class Push final : public Load {
     }
   }
 
-  // Of the force the trapezoid over the way of the places, which is what the scheme gives the motion; of the torque that of the power.
+  // Of the force the trapezoid over the way of the places, which is what the scheme gives the motion; of the torque
+  // that of the power.
   void account(const Domain& domain, const Moment& moment) override {
     const Vec3 from = place[0];
     const Real before = strong[0], power_before = power[0];
     note(domain, moment);
-    work[0] += 0.5 * (before + strong[0]) * force->dot(place[0] - from) + 0.5 * (power_before + power[0]) * moment.time_step;
+    work[0] +=
+        0.5 * (before + strong[0]) * force->dot(place[0] - from) + 0.5 * (power_before + power[0]) * moment.time_step;
   }
 
   void energy(EnergySink& sink) const override { sink.work(*set, work[0]); }

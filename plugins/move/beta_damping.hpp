@@ -26,7 +26,8 @@ class BetaDamping {
       const Vec3& before = before_[static_cast<std::size_t>(i) * 2 + static_cast<std::size_t>(first_axis / 3)];
       Real squared = 0;
       for (int axis = 0; axis < 3; ++axis)
-        if (!grips.drives(i, first_axis + axis)) squared += (rate.at(i, axis) - before[axis]) * (rate.at(i, axis) - before[axis]);
+        if (!grips.drives(i, first_axis + axis))
+          squared += (rate.at(i, axis) - before[axis]) * (rate.at(i, axis) - before[axis]);
       return squared;
     };
     return (1 - beta) / (2 * beta * beta) * fixed_sum(all.count, [&](Index i) {

@@ -1,5 +1,6 @@
 #pragma once
-// Bond damping: dashpots beside the springs of each bond. They oppose what parts the two ends, and nothing else: a body that
+// Bond damping: dashpots beside the springs of each bond. They oppose what parts the two ends, and nothing else: a body
+// that
 // moves and turns as one is not braked, and both momenta are kept.   docs/theory/verlet.md
 //
 //   F  = -c_n (v.n) n - c_t s                v = v2 - v1,  s = v - (v.n) n - (w1 + w2)/2 x d     on end 2, the opposite on 1
@@ -7,8 +8,9 @@
 //   T2 = -d x F/2 - C (w2 - w1)
 //   c = 2 zeta sqrt(k m)                     with the stiffness k and the reduced mass or inertia m of each mode
 //
-// A pair of elements then swings with the damping ratio zeta along the bond, across it, in bending and in twist. Velocities are
-// those of half a step ago, so v.n and s are taken with the chord of half a step ago: a body that spins is not held back.
+// A pair of elements then swings with the damping ratio zeta along the bond, across it, in bending and in twist.
+// Velocities are those of half a step ago, so v.n and s are taken with the chord of half a step ago: a body that spins
+// is not held back.
 
 #include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
@@ -48,8 +50,8 @@ struct DashpotLaw {
   }
 };
 
-/// The dashpots of all families whose bonds either hold or are broken. Contacts that soften have none: they would make the
-/// interface tougher than its law says.
+/// The dashpots of all families whose bonds either hold or are broken. Contacts that soften have none: they would make
+/// the interface tougher than its law says.
 class Dashpots {
  public:
   /// Finds the rates at the present state, or those that were kept where the run was resumed.
@@ -60,7 +62,9 @@ class Dashpots {
       if (law->acts_when_broken()) continue;
       for (const Field* field : {&along, &across, &bending, &twisting}) table->rows().add(*field).keep();
       table->rebind();
-      const auto rate = [&, rows = &table->rows()](const Field& field) { return rows->column(field.name).view<Real>(); };
+      const auto rate = [&, rows = &table->rows()](const Field& field) {
+        return rows->column(field.name).view<Real>();
+      };
       families_.push_back({table, rate(along), rate(across), rate(bending), rate(twisting)});
       if (!resumed) fill(w.domain(), *law, families_.back(), zeta, mass, inertia);
     }
@@ -71,7 +75,8 @@ class Dashpots {
   /// The bonds' part in what limits the step: K grows by 2/dt C.   docs/theory/verlet.md
   Matrix12 stiffening(const BondTable& table, Index row, const Vec3& d, Real dt) const {
     for (const Family& f : families_)
-      if (f.table == &table) return (2 / dt) * dashpot_matrix({f.along[row], f.across[row], f.bending[row], f.twisting[row]}, d);
+      if (f.table == &table)
+        return (2 / dt) * dashpot_matrix({f.along[row], f.across[row], f.bending[row], f.twisting[row]}, d);
     return Matrix12::Zero();
   }
 
@@ -79,22 +84,30 @@ class Dashpots {
   void act(Domain& domain, const View<Vec3>& force, const View<Vec3>& torque, Real half_step) {
     pushed_.resize(static_cast<std::size_t>(domain.size()));
     turned_.resize(torque ? pushed_.size() : 0);
-    each_shared(domain.size(), [&](Index i) {
-      pushed_[static_cast<std::size_t>(i)] = force[i];
-      if (torque) turned_[static_cast<std::size_t>(i)] = torque[i];
-    }, few);
+    each_shared(
+        domain.size(),
+        [&](Index i) {
+          pushed_[static_cast<std::size_t>(i)] = force[i];
+          if (torque) turned_[static_cast<std::size_t>(i)] = torque[i];
+        },
+        few);
     domain.clear_halo();
     for (const Family& f : families_) {
       if (torque)
-        bond_loop::run<Pass{}>(DashpotLaw<true>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain, false);
+        bond_loop::run<Pass{}>(DashpotLaw<true>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain,
+                               false);
       else
-        bond_loop::run<Pass{}>(DashpotLaw<false>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain, false);
+        bond_loop::run<Pass{}>(DashpotLaw<false>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain,
+                               false);
     }
     domain.gather();
-    each_shared(domain.size(), [&](Index i) {
-      pushed_[static_cast<std::size_t>(i)] = force[i] - pushed_[static_cast<std::size_t>(i)];
-      if (torque) turned_[static_cast<std::size_t>(i)] = torque[i] - turned_[static_cast<std::size_t>(i)];
-    }, few);
+    each_shared(
+        domain.size(),
+        [&](Index i) {
+          pushed_[static_cast<std::size_t>(i)] = force[i] - pushed_[static_cast<std::size_t>(i)];
+          if (torque) turned_[static_cast<std::size_t>(i)] = torque[i] - turned_[static_cast<std::size_t>(i)];
+        },
+        few);
   }
 
   /// Power that they took at these velocities and spins [W]; 0 where there are none.
@@ -107,7 +120,8 @@ class Dashpots {
     });
   }
 
-  /// By how much the energy that is booked for them lags behind what they took: dt^2/4 of their force times the acceleration [J].
+  /// By how much the energy that is booked for them lags behind what they took: dt^2/4 of their force times the
+  /// acceleration [J].
   Real lag(const Motion& all, Real dt) const {
     if (pushed_.empty()) return 0;
     return dt * dt / 4 * fixed_sum(all.count, [&](Index i) {
@@ -130,14 +144,15 @@ class Dashpots {
     View<Real> along, across, bending, twisting;
   };
 
-  static void fill(const Domain& domain, const BondLaw& law, const Family& family, Real zeta, const View<const Real>& mass,
-                   const View<const Real>& inertia) {
+  static void fill(const Domain& domain, const BondLaw& law, const Family& family, Real zeta,
+                   const View<const Real>& mass, const View<const Real>& inertia) {
     const auto position = domain.elements().column("position").view<Vec3>();
     const BondTable& table = *family.table;
     for (const Chunk& chunk : table.chunks())
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
         const Index i = table.first()[b], j = table.second()[b];
-        const DashpotRates c = dashpot_rates(blaming(law, "tangent", [&] { return law.tangent(domain, table, b); }), position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
+        const DashpotRates c = dashpot_rates(blaming(law, "tangent", [&] { return law.tangent(domain, table, b); }),
+                                             position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
                                              inertia ? 1 / inertia[i] + 1 / inertia[j] : 0);
         family.along[b] = c.along;
         family.across[b] = c.across;

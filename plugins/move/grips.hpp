@@ -2,12 +2,13 @@
 // Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), each element by itself or their mean.
 // Axes 0..2 are places, 3..5 are turns: those are held still, which spins and torques alone see to.
 //
-// Work of a step: the inertia of what is gripped takes just the change of its kinetic energy, which prescribed velocities tell whatever
-// kinks they have. The rest of the reaction does that of the trapezoid, between what it is after the bonds of the last step have broken
+// Work of a step: the inertia of what is gripped takes just the change of its kinetic energy, which prescribed
+// velocities tell whatever kinks they have. The rest of the reaction does that of the trapezoid, between what it is
+// after the bonds of the last step have broken
 // and what it is before those of this step do: of second order in the step.   docs/theory/verlet.md
 //
-// A mean leaves out debris. A loose element, which no bond holds, would take its share of the force and fly away, and the
-// mean would follow it instead of the specimen. What breaks loose later is left out from then on.
+// A mean leaves out debris. A loose element, which no bond holds, would take its share of the force and fly away, and
+// the mean would follow it instead of the specimen. What breaks loose later is left out from then on.
 
 #include <algorithm>
 #include <set>
@@ -40,12 +41,14 @@ class Grips {
       if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, when);
       sets_.push_back(c.grip == Grip::mean ? without_debris(all, body) : all);
       if (sets_.back().size() < all.size())
-        w.log().say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong to a small fragment, and are left out of its mean",
-                                                   all.size() - sets_.back().size(), all.size(), c.set));
+        w.log().say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong "
+                                                         "to a small fragment, and are left out of its mean",
+                                                         all.size() - sets_.back().size(), all.size(), c.set));
       axes_.push_back(c.axis);
       averages_.push_back(c.grip == Grip::mean);
       means_.push_back(0);
-      weights_.push_back(c.axis < 3 ? weight(c.grip, sets_.back(), w.domain().elements().column("mass").view<Real>()) : 0);
+      weights_.push_back(c.axis < 3 ? weight(c.grip, sets_.back(), w.domain().elements().column("mass").view<Real>())
+                                    : 0);
       for (const Index row : sets_.back()) {
         const auto bit = static_cast<unsigned char>(1 << c.axis);
         held_[static_cast<std::size_t>(row)] |= bit;
@@ -77,7 +80,8 @@ class Grips {
     }
   }
 
-  /// What a mean keeps from moving its set: of sum |F|^2/m the part of the set's mean, (sum F/m)^2 / sum 1/m, over all means [N^2/kg].
+  /// What a mean keeps from moving its set: of sum |F|^2/m the part of the set's mean, (sum F/m)^2 / sum 1/m, over all
+  /// means [N^2/kg].
   Real held_by_means(const Gripped& places, const Gripped& turns) const {
     Real all = 0;
     for (std::size_t k = 0; k < sets_.size(); ++k) {
@@ -106,8 +110,8 @@ class Grips {
   bool drives(Index row, int axis) const { return driven(row) >> axis & 1; }
   unsigned driven(Index row) const { return driven_[static_cast<std::size_t>(row)]; }
 
-  /// Once bonds have broken at the end of a step: the reactions for the half step to come are those of the forces that are left. The
-  /// forces themselves stay as they are, for places and rates that are prescribed follow from no force.
+  /// Once bonds have broken at the end of a step: the reactions for the half step to come are those of the forces that
+  /// are left. The forces themselves stay as they are, for places and rates that are prescribed follow from no force.
   void bonds_broke(Workings& w, const Gripped& places, const Gripped& turns, Real beta) const {
     each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
       const Real lacking = missing(c, sets_[k], of, c.at(w.moment().time).acceleration / beta);
@@ -115,8 +119,8 @@ class Grips {
     });
   }
 
-  /// Members that these grips, made anew after breaks, have let go still carry their share of the reaction in the half step to come.
-  /// Rates are those of the full step.
+  /// Members that these grips, made anew after breaks, have let go still carry their share of the reaction in the half
+  /// step to come. Rates are those of the full step.
   void take_over(Workings& w, const Grips& before, const Gripped& places, const Gripped& turns) const {
     const Real dt = w.moment().time_step;
     each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
@@ -134,7 +138,8 @@ class Grips {
   void before_advance(Workings& w, const View<Vec3>& position) {
     for (std::size_t k = 0; k < sets_.size(); ++k) {
       const Constraint& c = w.constraints()[k];
-      if (c.axis < 3 && c.grip == Grip::mean) means_[k] = mean(sets_[k], [&](Index row) { return position.at(row, c.axis); });
+      if (c.axis < 3 && c.grip == Grip::mean)
+        means_[k] = mean(sets_[k], [&](Index row) { return position.at(row, c.axis); });
     }
     if (places_.empty())
       for (const Set& set : sets_) places_.emplace_back(set.size());
@@ -207,7 +212,8 @@ class Grips {
     }
   }
 
-  // What the loads lack of the acceleration `a`: in all where each element has it, for each element where the mean does.
+  // What the loads lack of the acceleration `a`: in all where each element has it, for each element where the mean
+  // does.
   static Real missing(const Constraint& c, const Set& set, const Gripped& of, Real a) {
     const int axis = c.axis % 3;
     if (c.grip == Grip::mean) {
@@ -222,7 +228,8 @@ class Grips {
   // What the motion of all is worth in kinetic energy: 1/2 of this times the square of the prescribed velocity.
   static Real weight(Grip grip, const Set& set, const View<const Real>& mass) {
     const auto count = static_cast<Real>(set.size());
-    return grip == Grip::each ? count * mean(set, [&](Index row) { return mass[row]; }) : count / mean(set, [&](Index row) { return 1 / mass[row]; });
+    return grip == Grip::each ? count * mean(set, [&](Index row) { return mass[row]; })
+                              : count / mean(set, [&](Index row) { return 1 / mass[row]; });
   }
 
   static void set_rate(const Constraint& c, const Set& set, Real v, const Gripped& of) {
@@ -253,12 +260,14 @@ class Grips {
     for (const Index row : set) of.at(row, axis) += scale / mass[row];
   }
 
-  void note_bonds(const Domain& domain, const std::vector<const BondTable*>& tables, const std::vector<char>& averaged) {
+  void note_bonds(const Domain& domain, const std::vector<const BondTable*>& tables,
+                  const std::vector<char>& averaged) {
     for (std::size_t f = 0; f < domain.families().size(); ++f) {
       const BondTable* table = domain.families()[f].get();
       if (std::find(tables.begin(), tables.end(), table) == tables.end()) continue;
       for (Index b = 0; b < table->size(); ++b)
-        if (averaged[static_cast<std::size_t>(table->first()[b])] || averaged[static_cast<std::size_t>(table->second()[b])])
+        if (averaged[static_cast<std::size_t>(table->first()[b])] ||
+            averaged[static_cast<std::size_t>(table->second()[b])])
           bonds_of_means_.insert({static_cast<Index>(f), table->id()[b]});
     }
   }
@@ -269,7 +278,8 @@ class Grips {
   std::vector<Index> rows_;
   std::vector<Real> means_, weights_;
   std::vector<std::vector<Real>> places_;
-  std::vector<unsigned char> held_, driven_;          // bit `axis`: prescribed there, of the element itself or of a mean; of itself
+  std::vector<unsigned char> held_,
+      driven_;  // bit `axis`: prescribed there, of the element itself or of a mean; of itself
   std::set<std::pair<Index, Index>> bonds_of_means_;  // (family, id) of the bonds that hold members of a mean
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Bond laws that read velocities: they see those of the step, as far as they can be known before its forces are, and what they take is the
+// Bond laws that read velocities: they see those of the step, as far as they can be known before its forces are, and
+// what they take is the
 // force that they gave times the velocity that came of it.   docs/theory/verlet.md
 
 #include <algorithm>
@@ -24,7 +25,8 @@ class LawDamping {
     if (acts_) take(all, foreseen_);
   }
 
-  /// Velocities stand half-way: `foresee` brings them to the step, `evaluate` finds the forces; then they stand half-way again.
+  /// Velocities stand half-way: `foresee` brings them to the step, `evaluate` finds the forces; then they stand
+  /// half-way again.
   template <class Foresee, class Evaluate>
   void evaluate(const Motion& all, const Foresee& foresee, const Evaluate& find_forces) {
     take(all, kept_);
@@ -34,8 +36,8 @@ class LawDamping {
     set(all, [&](std::size_t i) { return kept_[i]; });
   }
 
-  /// At the velocities of the step [W]. A power is the square of a velocity, so f.C.v = P((f + v)/2) - P((f - v)/2); where a law's is not, this is
-  /// exact to second order in f - v.
+  /// At the velocities of the step [W]. A power is the square of a velocity, so f.C.v = P((f + v)/2) - P((f - v)/2);
+  /// where a law's is not, this is exact to second order in f - v.
   Real power(Workings& w, const Motion& all) {
     return acts_ ? product(w, all, [](const Rates& now, Index) { return now; }) : 0;
   }
@@ -44,7 +46,8 @@ class LawDamping {
   Real lag(Workings& w, const Motion& all, Real dt) {
     if (!acts_) return 0;
     return -dt / 4 * product(w, all, [&](const Rates&, Index i) {
-      return Rates{dt / all.mass[i] * all.force[i], all.spin ? Vec3(dt / all.inertia[i] * all.torque[i]) : Vec3(Vec3::Zero())};
+      return Rates{dt / all.mass[i] * all.force[i],
+                   all.spin ? Vec3(dt / all.inertia[i] * all.torque[i]) : Vec3(Vec3::Zero())};
     });
   }
 
@@ -55,7 +58,9 @@ class LawDamping {
 
   static void take(const Motion& all, std::vector<Rates>& into) {
     into.resize(static_cast<std::size_t>(all.count));
-    each_shared(all.count, [&](Index i) { into[static_cast<std::size_t>(i)] = {all.velocity[i], all.spin ? Vec3(all.spin[i]) : Vec3(Vec3::Zero())}; });
+    each_shared(all.count, [&](Index i) {
+      into[static_cast<std::size_t>(i)] = {all.velocity[i], all.spin ? Vec3(all.spin[i]) : Vec3(Vec3::Zero())};
+    });
   }
 
   template <class Of>
@@ -79,7 +84,8 @@ class LawDamping {
       });
       Real sum = 0;
       for (const auto& [law, table] : w.laws())
-        if (law->moves()) sum += blaming(*law, "power", [&, law = law, table = table] { return law->power(w.domain(), *table); });
+        if (law->moves())
+          sum += blaming(*law, "power", [&, law = law, table = table] { return law->power(w.domain(), *table); });
       return sum;
     };
     const Real found = power_at(1) - power_at(-1);

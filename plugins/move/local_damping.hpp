@@ -16,8 +16,8 @@ struct Damped {
 
 /// `half` times load times `inverse` is what the velocity still gains in this step: the power is that at full time.
 template <class T>
-[[gnu::always_inline]] inline Damped<T> damp_locally(const Vec<T>& load, const Vec<T>& rate, const T& inverse, Real share, Real half,
-                                                     unsigned held = 0) {
+[[gnu::always_inline]] inline Damped<T> damp_locally(const Vec<T>& load, const Vec<T>& rate, const T& inverse,
+                                                     Real share, Real half, unsigned held = 0) {
   Damped<T> out{load, T(0)};
   for (int axis = 0; axis < 3; ++axis) {
     if (held >> axis & 1) continue;
@@ -40,7 +40,8 @@ inline Real damp_locally(const Motion& all, const Grips& grips, Real share, Real
       const auto pushed = damp_locally<N>(row(all.force), row(all.velocity), N(1) / row(all.mass), share, half, held);
       row.set(all.force, pushed.load);
       if (!all.spin) return pushed.power;
-      const auto turned = damp_locally<N>(row(all.torque), row(all.spin), N(1) / row(all.inertia), share, half, held >> 3);
+      const auto turned =
+          damp_locally<N>(row(all.torque), row(all.spin), N(1) / row(all.inertia), share, half, held >> 3);
       row.set(all.torque, turned.load);
       return N(pushed.power + turned.power);
     };

@@ -1,5 +1,6 @@
 #pragma once
-// How fast the motion itself is, against the step: the Rayleigh quotient of the stiffness in the direction in which the elements move, found from
+// How fast the motion itself is, against the step: the Rayleigh quotient of the stiffness in the direction in which the
+// elements move, found from
 // the forces of two steps alone and so without any tangent that a bond law states.   docs/theory/verlet.md
 
 #include <vector>
@@ -22,8 +23,9 @@ class RayleighQuotient {
   }
   bool remembers() const { return !before_.empty(); }
 
-  /// After it, with the new forces and the velocities at half of it: dt^2/4 (-dF.dx)/(dx.M dx). In a stable run it stays below 1, for it is no larger
-  /// than for the fastest mode. What is prescribed has no force of its own, but its inertia counts.
+  /// After it, with the new forces and the velocities at half of it: dt^2/4 (-dF.dx)/(dx.M dx). In a stable run it
+  /// stays below 1, for it is no larger than for the fastest mode. What is prescribed has no force of its own, but its
+  /// inertia counts.
   Real of_step(const Motion& all, const Grips& grips, Real dt) {
     const auto opposed = [&](const View<Vec3>& rate, const View<Vec3>& load, Index i, int first_axis) {
       const Vec3& before = before_[static_cast<std::size_t>(i) * 2 + static_cast<std::size_t>(first_axis / 3)];

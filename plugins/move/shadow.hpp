@@ -1,5 +1,6 @@
 #pragma once
-// What velocity Verlet keeps is not the energy but the energy less dt^2/8 sum |F|^2/m: near the stable limit the balance swings by as much
+// What velocity Verlet keeps is not the energy but the energy less dt^2/8 sum |F|^2/m: near the stable limit the
+// balance swings by as much
 // as the fastest modes hold, and nothing is wrong.   docs/theory/verlet.md
 
 #include "core/base/sums.hpp"
@@ -8,8 +9,8 @@
 
 namespace beadwork {
 
-/// dt^2/8 sum |F|^2/m over what is free to move, torques likewise [J]. Local damping books its power with velocities, which widens the
-/// swing by up to (1 + alpha)/(1 - alpha).
+/// dt^2/8 sum |F|^2/m over what is free to move, torques likewise [J]. Local damping books its power with velocities,
+/// which widens the swing by up to (1 + alpha)/(1 - alpha).
 inline Real shadow(const Motion& all, const Grips& grips, Real dt, Real local_damping) {
   const auto free = [](const Vec3& load, unsigned held) {
     Real squared = 0;

@@ -55,7 +55,8 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
     const auto& [law, table, chunk, begin] = part;
     for (Index b = chunk.begin; b < chunk.live_end; ++b) {
       const Index i = table->first()[b], j = table->second()[b];
-      network.set(begin + b - chunk.begin, i, j, law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
+      network.set(begin + b - chunk.begin, i, j,
+                  law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
     }
   };
   each_shared(parts.size(), [&](std::size_t p) { blaming(*parts[p].law, "tangent", [&] { ask(parts[p]); }); });
@@ -63,10 +64,12 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
   const StableStep found = stable_step(network, mobility, 1);
   StepLimit limit{found.dt, ""};
   if (!std::isfinite(found.dt)) return {};
-  limit.by = fmt::format("limited by element {}, which {}", domain.elements().column("id").view<Index>()[found.mode.element],
-                         found.mode.rotates ? "turns" : "moves");
+  limit.by =
+      fmt::format("limited by element {}, which {}", domain.elements().column("id").view<Index>()[found.mode.element],
+                  found.mode.rotates ? "turns" : "moves");
   if (found.bound.bond >= 0) {
-    const auto next = std::upper_bound(parts.begin(), parts.end(), found.bound.bond, [](Index bond, const Part& part) { return bond < part.begin; });
+    const auto next = std::upper_bound(parts.begin(), parts.end(), found.bound.bond,
+                                       [](Index bond, const Part& part) { return bond < part.begin; });
     limit.by += fmt::format(" (stiffest bond: one of '{}')", std::prev(next)->table->name());
   }
   return limit;

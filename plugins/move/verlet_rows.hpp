@@ -1,8 +1,9 @@
 #pragma once
 // What velocity Verlet does with elements, one or a pack of them at a time.   Eqs (1), (2); docs/theory/verlet.md
 //
-// A step ends with velocities half a step behind the places, and the next one brings them to the full step and on to the middle
-// in one pass: elements are read and written once a step instead of twice. Whoever wants to see velocities has them completed first.
+// A step ends with velocities half a step behind the places, and the next one brings them to the full step and on to
+// the middle in one pass: elements are read and written once a step instead of twice. Whoever wants to see velocities
+// has them completed first.
 
 #include "core/domain/rows.hpp"
 #include "core/mechanics/verlet.hpp"
@@ -15,8 +16,8 @@ struct VerletRows {
   Real dt;
   Real half;  ///< beta dt / 2
 
-  /// Places and orientations at the next time, velocities half-way there; `behind`: these stand half-way of the step before.
-  /// True where a load is an infinity or no number.
+  /// Places and orientations at the next time, velocities half-way there; `behind`: these stand half-way of the step
+  /// before. True where a load is an infinity or no number.
   template <bool behind, class At>
   [[gnu::always_inline]] auto advance(const At& at) const {
     using T = typename At::Number;

@@ -11,28 +11,36 @@
 
 namespace beadwork {
 
-/// How far a crack has run along a plane of cohesive contacts, by two contours: where contacts are fully open, and where
-/// damage begins. What lies between them is the process zone (Fig 15 of the paper). Both go by the
-/// largest opening so far: a damaged contact that closes again still counts.
+/// How far a crack has run along a plane of cohesive contacts, by two contours: where contacts are fully open, and
+/// where damage begins. What lies between them is the process zone (Fig 15 of the paper). Both go by the largest
+/// opening so far: a damaged contact that closes again still counts.
 ///
 /// Each contour is the length of the pre-crack plus the damaged area (open area) over the width: for a straight front
 /// that is its place, for a ragged one its mean place.
 class CrackLength final : public Watcher {
  public:
-  static constexpr const char* about = "Length of a crack along a plane of cohesive contacts, by open contacts and by damage, and the process zone";
+  static constexpr const char* about =
+      "Length of a crack along a plane of cohesive contacts, by open contacts and by damage, and the process zone";
   Param<std::string> of{this, {.name = "of", .doc = "Family of the contacts", .role = Role::family}};
   Param<std::string> axis{this, {.name = "axis", .doc = "Axis along which the crack runs", .choices = {"x", "y", "z"}}};
-  Param<Real> from{this, {.name = "from", .unit = "m", .doc = "Place of the crack's mouth along the axis", .fallback = "0 m"}};
-  Param<Real> start{this, {.name = "start", .unit = "m", .doc = "Place of the first contact: the end of the pre-crack"}};
+  Param<Real> from{
+      this, {.name = "from", .unit = "m", .doc = "Place of the crack's mouth along the axis", .fallback = "0 m"}};
+  Param<Real> start{this,
+                    {.name = "start", .unit = "m", .doc = "Place of the first contact: the end of the pre-crack"}};
   Param<Real> end{this, {.name = "end", .unit = "m", .doc = "Place where the contacts end"}};
-  Param<std::string> against{this, {.name = "against", .doc = "Set whose driven displacement is the abscissa; time where absent", .optional = true, .role = Role::set}};
+  Param<std::string> against{this,
+                             {.name = "against",
+                              .doc = "Set whose driven displacement is the abscissa; time where absent",
+                              .optional = true,
+                              .role = Role::set}};
   Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "crack"}};
-  Param<Formula> reference{this,
-                           {.name = "reference",
-                            .unit = "1",
-                            .doc = "Crack length over the whole length that theory predicts, as a formula in 'displacement'",
-                            .optional = true,
-                            .variables = {{"displacement", find_unit("m")->dimension}}}};
+  Param<Formula> reference{
+      this,
+      {.name = "reference",
+       .unit = "1",
+       .doc = "Crack length over the whole length that theory predicts, as a formula in 'displacement'",
+       .optional = true,
+       .variables = {{"displacement", find_unit("m")->dimension}}}};
   Reads<Real> damage{this, field::damage};
   Reads<Real> area{this, {"area", On::bonds, "m2", "Area that a contact stands for"}};
 
@@ -41,9 +49,11 @@ class CrackLength final : public Watcher {
   void check(Complaints& complaints) const override {
     const char* course = "the crack runs from 'from' over 'start' to 'end'";
     if (*from > *start)
-      complaints.error(from.at(), fmt::format("'from' = {} must not lie beyond 'start' = {}: {}", from.text(), start.text(), course));
+      complaints.error(from.at(), fmt::format("'from' = {} must not lie beyond 'start' = {}: {}", from.text(),
+                                              start.text(), course));
     if (*end <= *start)
-      complaints.error(end.at(), fmt::format("'end' = {} must lie beyond 'start' = {}: {}", end.text(), start.text(), course));
+      complaints.error(end.at(),
+                       fmt::format("'end' = {} must lie beyond 'start' = {}: {}", end.text(), start.text(), course));
   }
 
   void check_stages(std::span<const Constraint> constraints, Complaints& complaints) const override {
@@ -52,8 +62,9 @@ class CrackLength final : public Watcher {
     for (const Constraint& c : constraints)
       if (c.driven) driven.insert(c.set);
     if (!driven.contains(*against))
-      complaints.error(against.at(), fmt::format("'against' names set '{}', which nothing in <load> drives while it looks{}", *against,
-                                                 did_you_mean(*against, {driven.begin(), driven.end()})));
+      complaints.error(against.at(),
+                       fmt::format("'against' names set '{}', which nothing in <load> drives while it looks{}",
+                                   *against, did_you_mean(*against, {driven.begin(), driven.end()})));
   }
 
   void look(Sight& sight) override {
@@ -70,7 +81,10 @@ class CrackLength final : public Watcher {
     const Real by_damage = *start - *from + per_area * damaged;
     std::vector<Real> row{driven(sight), by_open / length, by_damage / length, by_damage - by_open};
     CurvePlan plan{.name = *name,
-                   .columns = {{"displacement", "m"}, {"crack length open", "1"}, {"crack length damaged", "1"}, {"process zone", "m"}},
+                   .columns = {{"displacement", "m"},
+                               {"crack length open", "1"},
+                               {"crack length damaged", "1"},
+                               {"process zone", "m"}},
                    .title = "Crack length over the whole length",
                    .x = against.given() ? "displacement" : "time",
                    .y = {"crack length open", "crack length damaged", "process zone"},

@@ -13,9 +13,11 @@ class ForceCurve final : public Watcher {
  public:
   static constexpr const char* about = "Reaction of a driven or held set against displacement, as a curve";
   Param<std::string> of{this, {.name = "of", .doc = "Set whose reaction is watched", .role = Role::set}};
-  Param<std::string> axis{this, {.name = "axis", .doc = "Axis along which the reaction is taken", .choices = {"x", "y", "z"}}};
+  Param<std::string> axis{
+      this, {.name = "axis", .doc = "Axis along which the reaction is taken", .choices = {"x", "y", "z"}}};
   Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "force"}};
-  Param<std::string> title{this, {.name = "title", .doc = "Title of the curve in the report", .fallback = "Force against displacement"}};
+  Param<std::string> title{
+      this, {.name = "title", .doc = "Title of the curve in the report", .fallback = "Force against displacement"}};
   Param<Formula> reference{this,
                            {.name = "reference",
                             .unit = "N",
@@ -31,11 +33,12 @@ class ForceCurve final : public Watcher {
       if (c.set == *of) axes.insert(std::string(1, "xyz"[c.axis]));
     }
     if (axes.empty())
-      complaints.error(of.at(), fmt::format("'of' watches set '{}', which nothing in <load> drives or holds while it looks{}", *of,
-                                            did_you_mean(*of, {sets.begin(), sets.end()})));
+      complaints.error(
+          of.at(), fmt::format("'of' watches set '{}', which nothing in <load> drives or holds while it looks{}", *of,
+                               did_you_mean(*of, {sets.begin(), sets.end()})));
     else if (!axes.contains(*axis))
-      complaints.error(axis.at(), fmt::format("'axis' is {}, but <load> drives or holds set '{}' only along {}", *axis, *of,
-                                              join({axes.begin(), axes.end()})));
+      complaints.error(axis.at(), fmt::format("'axis' is {}, but <load> drives or holds set '{}' only along {}", *axis,
+                                              *of, join({axes.begin(), axes.end()})));
   }
 
   void look(Sight& sight) override {

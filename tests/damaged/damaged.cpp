@@ -1,5 +1,5 @@
-// Reads damaged folders of runs by all ways by which the program reads one back: for a report, to go on, as a packing. Built with the
-// sanitizers of addresses and undefined behaviour; corpus.py makes the folders.
+// Reads damaged folders of runs by all ways by which the program reads one back: for a report, to go on, as a packing.
+// Built with the sanitizers of addresses and undefined behaviour; corpus.py makes the folders.
 //   damaged make FOLDER       a whole run of a small bar, and beside it one that still goes on
 //   damaged read FOLDER...    ends with 1 if anything but a Fault comes of it, or a "refuse-..." is taken for whole
 #include <cstdio>
@@ -21,8 +21,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr Index elements = 120;
-const RunMeta about = {.name = "bar", .deck = "<scene/>", .resolved = "<scene name=\"bar\"/>", .deck_sha256 = "5e88", .overrides = {}, .files = {}, .version = "0.1.0",
-                       .plugins = {"bond/spring 0.1.0 lib.so"}, .threads = 2, .seed = 7, .packing = "[{\"Z\": 6.2}]"};
+const RunMeta about = {.name = "bar",
+                       .deck = "<scene/>",
+                       .resolved = "<scene name=\"bar\"/>",
+                       .deck_sha256 = "5e88",
+                       .overrides = {},
+                       .files = {},
+                       .version = "0.1.0",
+                       .plugins = {"bond/spring 0.1.0 lib.so"},
+                       .threads = 2,
+                       .seed = 7,
+                       .packing = "[{\"Z\": 6.2}]"};
 
 void make(const fs::path& root, bool finished) {
   RunFolder folder = RunFolder::fresh(root, true);
@@ -31,20 +40,25 @@ void make(const fs::path& root, bool finished) {
   fill_bar(domain, elements);
   Recorder recorder = Recorder::fresh(folder, about, {}, domain);
   const BondTable& resin = *domain.families()[0];
-  const FrameRequest request{{&domain.elements().column("velocity")}, {{&resin, "cohesive-beam", {&resin.rows().column("damage")}}}, false};
+  const FrameRequest request{
+      {&domain.elements().column("velocity")}, {{&resin, "cohesive-beam", {&resin.rows().column("damage")}}}, false};
   for (const std::int64_t step : {0, 100}) {
     break_some(domain, 0, 30 + static_cast<Index>(step), step);
     recorder.write({step, 1e-7 * static_cast<Real>(step), 0}, request, domain);
   }
   std::string reason;
   if (finished && !recorder.consolidate(domain, reason)) throw MachineFailure(reason);
-  save_checkpoint(folder.checkpoint(), domain, {"0.1.0", "5e88", about.resolved, {1e-5, 100, 1e-7, 0, 0, 0}, 7, {{"packing", about.packing}}});
+  save_checkpoint(folder.checkpoint(), domain,
+                  {"0.1.0", "5e88", about.resolved, {1e-5, 100, 1e-7, 0, 0, 0}, 7, {{"packing", about.packing}}});
   folder.claim(folder.curve("force"));
   folder.claim(root / "curves/force.json");
   Curve curve = Curve::fresh(folder.curve("force"), {{"time", "s"}, {"force", "N"}});
-  for (std::int64_t step = 0; step <= 100; step += 10) curve.add(step, std::vector<Real>{1e-7 * static_cast<Real>(step), 2});
+  for (std::int64_t step = 0; step <= 100; step += 10)
+    curve.add(step, std::vector<Real>{1e-7 * static_cast<Real>(step), 2});
   curve.write_sidecar("{\"title\": \"Force\", \"x\": \"time\", \"y\": [\"force\"]}\n");
-  write_atomically(folder.summary(), R"({"name": "bar", "status": "done", "elements": 120, "time_step": 1e-7, "energy": {"work": 1.5}, "breaks": {"shear": 4},
+  write_atomically(
+      folder.summary(),
+      R"({"name": "bar", "status": "done", "elements": 120, "time_step": 1e-7, "energy": {"work": 1.5}, "breaks": {"shear": 4},
     "packing": [{"Z": 6.2, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
   write_atomically(folder.resolved(), about.resolved);
   write_atomically(folder.log(), "first line\nlast line\n");
@@ -53,7 +67,8 @@ void make(const fs::path& root, bool finished) {
 // The page but for its pictures, which take long to draw with sanitizers; what is drawn is prepared.
 void read_for_report(const fs::path& root) {
   report::Run run = report::open_run(root);
-  for (const auto& part : {report::facts(run), report::curves(run, {}), report::ledger(run), report::breaks(run), report::packing(run), report::deck_and_log(run)})
+  for (const auto& part : {report::facts(run), report::curves(run, {}), report::ledger(run), report::breaks(run),
+                           report::packing(run), report::deck_and_log(run)})
     if (part.size() > (std::size_t{1} << 30)) throw std::logic_error("a part of the page has no bounds");
   if (!run.recorded) return;
   run.recorded->meta();

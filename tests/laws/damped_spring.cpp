@@ -42,8 +42,10 @@ struct DampedSpringLaw {
 class DampedSpring final : public BondLawOf<DampedSpringLaw> {
  public:
   static constexpr const char* about = "Spring and dashpot side by side";
-  Param<Real> stiffness{this, {.name = "stiffness", .unit = "N/m", .range = not_negative, .doc = "Force over elongation"}};
-  Param<Real> viscosity{this, {.name = "viscosity", .unit = "N.s/m", .range = positive, .doc = "Force over rate of elongation"}};
+  Param<Real> stiffness{this,
+                        {.name = "stiffness", .unit = "N/m", .range = not_negative, .doc = "Force over elongation"}};
+  Param<Real> viscosity{
+      this, {.name = "viscosity", .unit = "N.s/m", .range = positive, .doc = "Force over rate of elongation"}};
 
   Reads<Vec3> position{this, field::position};
   Reads<Vec3> velocity{this, field::velocity};
@@ -65,7 +67,9 @@ class DampedSpring final : public BondLawOf<DampedSpringLaw> {
   AnyLaw law() const override { return DampedSpringLaw{length.view(), *stiffness, *viscosity}; }
 
  private:
-  Vec3 apart(const BondTable& table, Index row) const { return position[table.second()[row]] - position[table.first()[row]]; }
+  Vec3 apart(const BondTable& table, Index row) const {
+    return position[table.second()[row]] - position[table.first()[row]];
+  }
 };
 
 }  // namespace beadwork

@@ -21,7 +21,8 @@ struct UnderstatedRopeLaw {
   }
 };
 
-/// A mistake: a rope that states a share of its stiffness only. As it goes slack, what it gains by that stays small for long.
+/// A mistake: a rope that states a share of its stiffness only. As it goes slack, what it gains by that stays small for
+/// long.
 class UnderstatedRope final : public BondLawOf<UnderstatedRopeLaw> {
  public:
   static constexpr const char* about = "Rope that states a share of its stiffness only";
@@ -33,10 +34,12 @@ class UnderstatedRope final : public BondLawOf<UnderstatedRopeLaw> {
   Keeps<Real> length{this, field::rest_length};
 
   void connect(Domain&, BondTable& table) override {
-    for (Index row = 0; row < table.size(); ++row) length[row] = (position[table.second()[row]] - position[table.first()[row]]).norm();
+    for (Index row = 0; row < table.size(); ++row)
+      length[row] = (position[table.second()[row]] - position[table.first()[row]]).norm();
   }
   Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
-    return spring_stiffness({length[row], *stated * *stiffness}, position[table.second()[row]] - position[table.first()[row]]);
+    return spring_stiffness({length[row], *stated * *stiffness},
+                            position[table.second()[row]] - position[table.first()[row]]);
   }
 
  protected:

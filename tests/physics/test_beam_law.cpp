@@ -24,18 +24,14 @@ Pair strained(Random& random, const BeamRest<Real>& rest, Real size) {
           exp_map(random_vector(random, size)), exp_map(random_vector(random, size))};
 }
 
-Wrench<Real> wrench(const BeamRest<Real>& rest, const Pair& p) {
-  return beam_wrench(rest, p.d(), p.q1, p.q2);
-}
-Real energy(const BeamRest<Real>& rest, const Pair& p) {
-  return beam_energy(rest, p.d(), p.q1, p.q2).total();
-}
+Wrench<Real> wrench(const BeamRest<Real>& rest, const Pair& p) { return beam_wrench(rest, p.d(), p.q1, p.q2); }
+Real energy(const BeamRest<Real>& rest, const Pair& p) { return beam_energy(rest, p.d(), p.q1, p.q2).total(); }
 
 /// The 12 x 12 Euler-Bernoulli beam along x as textbooks print it, from E, G, L and the section alone.
 Matrix12 textbook_beam(Real E, Real nu, Real r, Real L) {
   const Real A = pi * r * r, I = pi * r * r * r * r / 4, J = 2 * I, G = E / (2 * (1 + nu));
-  const Real a = E * A / L, t = G * J / L, b12 = 12 * E * I / (L * L * L), b6 = 6 * E * I / (L * L),
-             b4 = 4 * E * I / L, b2 = 2 * E * I / L;
+  const Real a = E * A / L, t = G * J / L, b12 = 12 * E * I / (L * L * L), b6 = 6 * E * I / (L * L), b4 = 4 * E * I / L,
+             b2 = 2 * E * I / L;
   Matrix12 k;
   //    u1   v1    w1    X1  Y1   Z1   u2   v2    w2   X2  Y2   Z2
   k << a, 0, 0, 0, 0, 0, -a, 0, 0, 0, 0, 0,         //
@@ -55,13 +51,12 @@ Matrix12 textbook_beam(Real E, Real nu, Real r, Real L) {
 
 /// The linear law of Andre et al. (2012), with rotation vectors theta_i relative to the chord. `lever` is the
 /// length in 3B/lever: the paper writes L, the conservation of angular momentum wants l.
-Wrench<Real> andre_wrench(const BeamRest<Real>& rest, const Vec3& d, const Quat& q1, const Quat& q2,
-                          Real lever) {
+Wrench<Real> andre_wrench(const BeamRest<Real>& rest, const Vec3& d, const Quat& q1, const Quat& q2, Real lever) {
   const Real l = d.norm();
   const Vec3 e = d / l;
   const Vec3 axis = rest.axis.cross(e);
-  const Quat chord = exp_map(
-      axis.norm() > 0 ? Vec3(axis * (std::atan2(axis.norm(), rest.axis.dot(e)) / axis.norm())) : axis);
+  const Quat chord =
+      exp_map(axis.norm() > 0 ? Vec3(axis * (std::atan2(axis.norm(), rest.axis.dot(e)) / axis.norm())) : axis);
   const Vec3 theta1 = log_map(relative(chord, q1)), theta2 = log_map(relative(chord, q2));
   const Vec3 t1 = theta1 - e * e.dot(theta1), t2 = theta2 - e * e.dot(theta2);
   const Real tau = e.dot(theta2 - theta1), B = rest.bending;
@@ -109,10 +104,15 @@ template <class T>
 Vector12 by_shift(const BeamRest<Real>& rest, const Pair& p) {
   const auto number = [](Real x) { return static_cast<T>(x); };
   const auto vector = [](const Vec3& v) { return Vec<T>(v.cast<T>()); };
-  const BeamRest<T> same{vector(rest.axis), number(rest.length), number(rest.axial), number(rest.bending), number(rest.torsion)};
+  const BeamRest<T> same{vector(rest.axis), number(rest.length), number(rest.axial), number(rest.bending),
+                         number(rest.torsion)};
   const BeamShift<Real> shift = beam_shift(rest, p.d(), p.q1, p.q2);
-  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved), number(shift.grown), vector(shift.normal), {number(shift.turn.w), vector(shift.turn.v)}});
-  return generalised(Wrench<Real>{w.force.template cast<Real>(), w.torque1.template cast<Real>(), w.torque2.template cast<Real>()});
+  const Wrench<T> w = beam_wrench<T>(same, BeamShift<T>{vector(shift.moved),
+                                                        number(shift.grown),
+                                                        vector(shift.normal),
+                                                        {number(shift.turn.w), vector(shift.turn.v)}});
+  return generalised(
+      Wrench<Real>{w.force.template cast<Real>(), w.torque1.template cast<Real>(), w.torque2.template cast<Real>()});
 }
 
 TEST(beam, is_the_same_law_by_how_one_end_lies_against_the_other) {
@@ -138,7 +138,10 @@ TEST(beam, keeps_its_digits_in_single_precision_however_small_the_strain_and_lar
   for (const Real size : {1e-6, 1e-3, 0.4})
     for (int trial = 0; trial < 100; ++trial) {
       const auto rest = stout_beam(random_vector(random, 1));
-      EXPECT_LT(lost_digits(rest, moved_rigidly(strained(random, rest, size), random_rotation(random), random_vector(random, 3))), 1e-6) << size;
+      EXPECT_LT(lost_digits(rest, moved_rigidly(strained(random, rest, size), random_rotation(random),
+                                                random_vector(random, 3))),
+                1e-6)
+          << size;
     }
 }
 
@@ -188,8 +191,7 @@ TEST(beam, its_linearisation_is_the_euler_bernoulli_matrix) {
   const Matrix12 expected = textbook_beam(E, nu, r, L);
   const Matrix12 found = -jacobian([&](const Pair& p) { return generalised(wrench(rest, p)); }, straight);
   EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.maxCoeff());
-  EXPECT_LT((beam_stiffness(rest, straight.d()) - expected).cwiseAbs().maxCoeff(),
-            1e-14 * expected.maxCoeff());
+  EXPECT_LT((beam_stiffness(rest, straight.d()) - expected).cwiseAbs().maxCoeff(), 1e-14 * expected.maxCoeff());
 }
 
 TEST(beam, its_stiffness_turns_with_it) {
@@ -212,12 +214,10 @@ TEST(beam, a_tension_stiffens_it_across) {
 TEST(beam, agrees_with_the_linear_law_of_andre_to_first_order) {
   Random random(17);
   const auto rest = stout_beam(Vec3(0.7, 0.2, -0.5));
-  const Vec3 stretch = random_vector(random, 1), turn1 = random_vector(random, 1),
-             turn2 = random_vector(random, 1);
+  const Vec3 stretch = random_vector(random, 1), turn1 = random_vector(random, 1), turn2 = random_vector(random, 1);
   Real previous = 0;
   for (const Real size : {4e-4, 2e-4, 1e-4}) {
-    const Pair p{Vec3(0, 0, 0), rest.axis * rest.length + stretch * size, exp_map(turn1 * size),
-                 exp_map(turn2 * size)};
+    const Pair p{Vec3(0, 0, 0), rest.axis * rest.length + stretch * size, exp_map(turn1 * size), exp_map(turn2 * size)};
     const Vector12 expected = generalised(andre_wrench(rest, p.d(), p.q1, p.q2, p.d().norm()));
     const Real off = (generalised(wrench(rest, p)) - expected).norm() / expected.norm();
     EXPECT_LT(off, size);
@@ -261,8 +261,7 @@ TEST(beam, pure_bending_gives_the_moment_of_the_section) {
   const Real r = 0.2, E = 3;
   const auto rest = round_beam(Vec3(1, 0, 0), E, 0.3, r);
   const Real angle = 9 * pi / 180;
-  const auto w =
-      beam_wrench(rest, rest.axis, exp_map(Vec3(0, 0, -angle / 2)), exp_map(Vec3(0, 0, angle / 2)));
+  const auto w = beam_wrench(rest, rest.axis, exp_map(Vec3(0, 0, -angle / 2)), exp_map(Vec3(0, 0, angle / 2)));
   const Real EI = E * pi * std::pow(r, 4) / 4;
   EXPECT_NEAR(w.torque1[2], EI * std::sin(angle), 1e-15);  // -0.4 % against EI angle / L
   EXPECT_NEAR(w.torque2[2], -EI * std::sin(angle), 1e-15);
@@ -288,8 +287,7 @@ struct Dance {
   Real m1 = 1, m2 = 1.7, I1 = 0.4, I2 = 0.9;
 
   Real energy_now() const {
-    return 0.5 * (m1 * v1.squaredNorm() + m2 * v2.squaredNorm() + I1 * w1.squaredNorm() +
-                  I2 * w2.squaredNorm()) +
+    return 0.5 * (m1 * v1.squaredNorm() + m2 * v2.squaredNorm() + I1 * w1.squaredNorm() + I2 * w2.squaredNorm()) +
            energy(rest, p);
   }
   Vec3 momentum() const { return m1 * v1 + m2 * v2; }
@@ -353,8 +351,8 @@ TEST(beam, a_law_that_is_no_gradient_would_not_keep_the_energy) {
   Dance s = dancing_pair();
   const Real start = s.energy_now();
   dance(
-      s, [](const Dance& at) { return andre_wrench(at.rest, at.p.d(), at.p.q1, at.p.q2, at.p.d().norm()); },
-      1e-3, 3000);
+      s, [](const Dance& at) { return andre_wrench(at.rest, at.p.d(), at.p.q1, at.p.q2, at.p.d().norm()); }, 1e-3,
+      3000);
   EXPECT_GT(std::abs(s.energy_now() / start - 1), 1e-4);
 }
 

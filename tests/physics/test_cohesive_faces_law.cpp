@@ -35,9 +35,13 @@ struct Contact {
   CarriedNormals<Real> normals;
 };
 
-CarriedFaces<Real> faces(const Contact& c, const Pair& p) { return carried_faces<Real>(c.arms, c.normals, p.d(), p.q1, p.q2); }
+CarriedFaces<Real> faces(const Contact& c, const Pair& p) {
+  return carried_faces<Real>(c.arms, c.normals, p.d(), p.q1, p.q2);
+}
 
-Contact bonded(const Pair& p, const Vec3& n) { return {p, contact_arms(p.d(), 0.8, 1.2, p.q1, p.q2), carried_normals(n, p.q1, p.q2)}; }
+Contact bonded(const Pair& p, const Vec3& n) {
+  return {p, contact_arms(p.d(), 0.8, 1.2, p.q1, p.q2), carried_normals(n, p.q1, p.q2)};
+}
 
 /// Bonded with any normal, then moved apart and turned by `size`.
 Contact moved_contact(Random& random, Real size) {
@@ -83,7 +87,7 @@ void force_is_the_gradient(const Modes& modes, const typename Modes::template Hi
   for (int trial = 0; trial < 300; ++trial) {
     const Contact c = moved_contact(random, 0.1);
     const auto at = faces(c, c.p);
-    if (std::abs(at.opening.normal) < 0.02 || at.opening.shear < 0.02) continue;            // the kink at u_n = 0
+    if (std::abs(at.opening.normal) < 0.02 || at.opening.shear < 0.02) continue;                // the kink at u_n = 0
     if (modes.damage(modes.next(at.opening, remembered)) > modes.damage(remembered)) continue;  // with the damage held
     if (at.opening.normal > 0.5 || at.opening.shear > 0.5) continue;
     ++counted;
@@ -116,7 +120,8 @@ TEST(cohesive_faces, no_net_torque_and_nothing_changes_in_a_rigid_motion_or_with
     EXPECT_LE((generalised(turned.wrench) - in_blocks(turn) * generalised(w)).norm(), 1e-13 * generalised(w).norm());
     EXPECT_NEAR(turned.after.modes.shear, one.after.modes.shear, 1e-14);
 
-    const Contact other{{c.p.x2, c.p.x1, c.p.q2, c.p.q1}, {c.arms.arm2, c.arms.arm1}, {-c.normals.normal2, -c.normals.normal1}};
+    const Contact other{
+        {c.p.x2, c.p.x1, c.p.q2, c.p.q1}, {c.arms.arm2, c.arms.arm1}, {-c.normals.normal2, -c.normals.normal1}};
     const auto swapped = act(both, faces(other, other.p), before);
     EXPECT_LE((swapped.wrench.force + w.force).norm(), 1e-14 * scale);
     EXPECT_LE((swapped.wrench.torque1 - w.torque2).norm() + (swapped.wrench.torque2 - w.torque1).norm(), 1e-14 * scale);
@@ -128,7 +133,8 @@ TEST(cohesive_faces, a_line_of_centres_at_any_angle_gives_strength_times_area_an
   for (const Real degrees : {0., 45., 90.})
     for (const int axis : {0, 2}) {
       const Real a = degrees * pi / 180;
-      const Contact c = bonded({Vec3(0, 0, 0), 2 * Vec3(std::sin(a), 0, std::cos(a)), identity(), identity()}, Vec3(0, 0, 1));
+      const Contact c =
+          bonded({Vec3(0, 0, 0), 2 * Vec3(std::sin(a), 0, std::cos(a)), identity(), identity()}, Vec3(0, 0, 1));
       const Softening<Real>& mode = axis == 2 ? opens : slides;
       auto history = undamaged_history<Both>();
       Real work = 0, before = 0, peak = 0;
@@ -150,8 +156,8 @@ TEST(cohesive_faces, a_line_of_centres_at_any_angle_gives_strength_times_area_an
     }
 }
 
-// Why there is a normal other than the line of centres: a pair at 45 degrees that is slid, and the like of it on the other side, of which
-// one is pressed: it never fails.
+// Why there is a normal other than the line of centres: a pair at 45 degrees that is slid, and the like of it on the
+// other side, of which one is pressed: it never fails.
 TEST(cohesive_faces, a_pair_that_is_slid_towards_its_line_of_centres_locks) {
   const Vec3 d(std::sqrt(2), 0, std::sqrt(2));
   const auto arms = contact_arms(d, 1, 1, identity(), identity());
@@ -175,7 +181,8 @@ TEST(cohesive_faces, turning_a_fibre_about_its_axis_takes_shear_strength_times_a
   EXPECT_NEAR(-now.wrench.torque1[2], slides.stiffness * slides.onset * area * R * std::cos(phi / 2), 1e-13);
 }
 
-TEST(cohesive_faces, the_opening_seen_by_a_contact_one_of_whose_elements_turns_falls_with_the_cosine_of_half_the_angle) {
+TEST(cohesive_faces,
+     the_opening_seen_by_a_contact_one_of_whose_elements_turns_falls_with_the_cosine_of_half_the_angle) {
   const Contact c = bonded({Vec3(0, 0, 0), Vec3(2, 0, 0), identity(), identity()}, Vec3(1, 0, 0));
   for (const Real phi : {0.1, 0.8}) {
     const Pair p{Vec3(0, 0, 0), Vec3(2.05, 0, 0), exp_map(Vec3(0, 0, phi)), identity()};
@@ -188,7 +195,9 @@ TEST(cohesive_faces, the_stiffness_is_the_derivative_of_the_force_of_a_closed_co
   const Contact c = moved_contact(random, 0);
   const auto check = [&](const auto& modes) {
     using Modes = std::remove_cvref_t<decltype(modes)>;
-    const auto forces = [&](const Pair& p) { return generalised(act(modes, faces(c, p), undamaged_history<Modes>()).wrench); };
+    const auto forces = [&](const Pair& p) {
+      return generalised(act(modes, faces(c, p), undamaged_history<Modes>()).wrench);
+    };
     const Matrix12 expected = -jacobian(forces, c.p);
     EXPECT_LT((undamaged_stiffness(modes, faces(c, c.p), area) - expected).norm(), 1e-8 * expected.norm());
     EXPECT_GT((expected.block<3, 3>(3, 3).norm()), 1);  // it resists turning
@@ -213,8 +222,8 @@ TEST(cohesive_faces, openings_follow_the_coordinates_as_the_stiffness_says_also_
   }
 }
 
-// Two spheres of mass m, I = 2/5 m R^2: sliding at a contact a distance R away also turns them, k (2/m + 2 R^2/I) = 7 k/m; so does
-// opening, where the normal is at right angles to the line of centres.
+// Two spheres of mass m, I = 2/5 m R^2: sliding at a contact a distance R away also turns them, k (2/m + 2 R^2/I) = 7
+// k/m; so does opening, where the normal is at right angles to the line of centres.
 TEST(cohesive_faces, the_time_step_knows_that_the_elements_turn) {
   const Real m = 3, R = 1, kn = opens.stiffness * area, ks = slides.stiffness * area;
   Eigen::Matrix<Real, 12, 1> inverse_mass;
@@ -295,8 +304,8 @@ TEST(cohesive_faces, an_oscillating_contact_keeps_energy_and_both_momenta_while_
   auto on = acting();
   for (int step = 0; step < 10000; ++step) {
     const auto old = on;
-    p = {advance<Real>(p.x1, v1, -old.force, dt), advance<Real>(p.x2, v2, old.force, dt), turn<Real>(p.q1, w1, old.torque1 / inertia, dt),
-         turn<Real>(p.q2, w2, old.torque2 / inertia, dt)};
+    p = {advance<Real>(p.x1, v1, -old.force, dt), advance<Real>(p.x2, v2, old.force, dt),
+         turn<Real>(p.q1, w1, old.torque1 / inertia, dt), turn<Real>(p.q2, w2, old.torque2 / inertia, dt)};
     on = acting();
     v1 = correct<Real>(v1, -old.force, -on.force, 1, dt);
     v2 = correct<Real>(v2, old.force, on.force, 1, dt);

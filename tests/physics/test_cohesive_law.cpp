@@ -142,7 +142,8 @@ struct Acted {
 
 /// A pair's contact, as the loop over bonds runs it.
 template <class Modes>
-Acted<Modes> act(const Modes& modes, const ContactArms<Real>& arms, const Vec3& d, const Quat& q1, const Quat& q2, const Openings<Real>& history) {
+Acted<Modes> act(const Modes& modes, const ContactArms<Real>& arms, const Vec3& d, const Quat& q1, const Quat& q2,
+                 const Openings<Real>& history) {
   const auto at = pair_faces<Real>(rest.length, arms, d, q1, q2);
   const auto now = cohesive_state(modes, at, rest.area, CohesiveHistory<Modes, Real>{history, 0.});
   return {cohesive_wrench(modes, at, rest.area, now.share), now.after.modes};
@@ -150,7 +151,8 @@ Acted<Modes> act(const Modes& modes, const ContactArms<Real>& arms, const Vec3& 
 
 template <class Modes>
 Real stored(const Modes& modes, const PairFaces<Real>& at, const Openings<Real>& history) {
-  return held_energy(modes, rest.area, at.opening, cohesive_state(modes, at, rest.area, CohesiveHistory<Modes, Real>{history, 0.}).share);
+  return held_energy(modes, rest.area, at.opening,
+                     cohesive_state(modes, at, rest.area, CohesiveHistory<Modes, Real>{history, 0.}).share);
 }
 
 /// Two elements in contact, then moved apart and turned by `size`.
@@ -167,7 +169,9 @@ Contact moved_contact(Random& random, Real size) {
   return {moved(bonded, Vector12::NullaryExpr([&](Eigen::Index) { return size * random.normal(); })), arms};
 }
 
-PairFaces<Real> state(const Contact& c, const Pair& p) { return pair_faces<Real>(rest.length, c.arms, p.d(), p.q1, p.q2); }
+PairFaces<Real> state(const Contact& c, const Pair& p) {
+  return pair_faces<Real>(rest.length, c.arms, p.d(), p.q1, p.q2);
+}
 
 TEST(cohesion, a_new_contact_is_closed_whatever_the_orientations) {
   Random random(1);
@@ -184,8 +188,7 @@ void force_is_the_gradient(const Modes& modes, const Openings<Real>& history) {
     const Contact c = moved_contact(random, 0.15);
     const auto now = state(c, c.p).opening;
     // with the damage held: unloading, or below the onset; away from the kink at u_n = 0
-    if (now.normal > history.normal - 0.02 || now.shear > history.shear - 0.02 || std::abs(now.normal) < 0.02)
-      continue;
+    if (now.normal > history.normal - 0.02 || now.shear > history.shear - 0.02 || std::abs(now.normal) < 0.02) continue;
     ++counted;
     const auto energy = [&](const Pair& p) { return stored(modes, state(c, p), history); };
     const Vector12 expected = -gradient(energy, c.p);
@@ -239,8 +242,7 @@ TEST(cohesion, does_not_care_which_end_is_called_first) {
   Random random(5);
   const Contact c = moved_contact(random, 0.1);
   const auto one = act(both, c.arms, c.p.d(), c.p.q1, c.p.q2, {0, 0});
-  const auto other =
-      act(both, {c.arms.arm2, c.arms.arm1}, -c.p.d(), c.p.q2, c.p.q1, {0, 0});
+  const auto other = act(both, {c.arms.arm2, c.arms.arm1}, -c.p.d(), c.p.q2, c.p.q1, {0, 0});
   EXPECT_LT((one.wrench.force + other.wrench.force).norm(), 1e-14);
   EXPECT_LT((one.wrench.torque1 - other.wrench.torque2).norm(), 1e-14);
   EXPECT_EQ(one.history.normal, other.history.normal);
@@ -264,10 +266,8 @@ TEST(cohesion, failure_in_either_mode_takes_both_and_leaves_only_contact) {
 TEST(cohesion, a_failed_contact_dissipates_no_more) {
   const auto arms = contact_arms(Vec3(2, 0, 0), 1, 1, identity(), identity());
   for (const Openings<Real> failed : {Openings<Real>{0, 0.9}, Openings<Real>{1.1, 0}}) {  // slid off; opened
-    const auto moved =
-        act(both, arms, Vec3(2.7, 0.3, 0), identity(), identity(), failed);
-    EXPECT_EQ(rest.area * both.dissipated(moved.history),
-              rest.area * both.dissipated(failed));
+    const auto moved = act(both, arms, Vec3(2.7, 0.3, 0), identity(), identity(), failed);
+    EXPECT_EQ(rest.area * both.dissipated(moved.history), rest.area * both.dissipated(failed));
   }
 }
 
@@ -286,7 +286,8 @@ TEST(cohesion, the_energy_balance_closes_when_one_mode_takes_the_other_along) {
                               CohesiveHistory<Both, Real>{history, 0.}, CohesiveHistory<Both, Real>{now.history, 0.});
     work -= 0.5 * (before + now.wrench.force).dot(next - d);
     history = now.history;
-    before = act(both, arms, next, identity(), identity(), history).wrench.force;  // what the other mode held goes at the end of the step
+    before = act(both, arms, next, identity(), identity(), history)
+                 .wrench.force;  // what the other mode held goes at the end of the step
     d = next;
   }
   ASSERT_TRUE(both.failed(history));
@@ -301,8 +302,7 @@ TEST(cohesion, shear_alone_dissipates_its_own_fracture_energy) {
   Vec3 before = zero<Vec3>();
   for (int i = 1; i <= 20000; ++i) {  // end 2 spins in place: pure sliding, the torque does the work
     const Real to = 1.2 * i / 20000;
-    const auto now =
-        act(shear, arms, Vec3(2, 0, 0), identity(), exp_map(Vec3(0, 0, to)), history);
+    const auto now = act(shear, arms, Vec3(2, 0, 0), identity(), exp_map(Vec3(0, 0, to)), history);
     work -= 0.5 * (before + now.wrench.torque2)[2] * (to - angle);
     history = now.history;
     before = now.wrench.torque2;
@@ -323,8 +323,7 @@ TEST(cohesion, its_stiffness_is_the_derivative_of_its_force) {
   };
   for (const Real history : {0., 0.9}) {
     const auto forces = [&](const Pair& at) {
-      return generalised(
-          Forces{cohesive_pull<Real>(law, rest, at.d(), history).force, zero<Vec3>(), zero<Vec3>()});
+      return generalised(Forces{cohesive_pull<Real>(law, rest, at.d(), history).force, zero<Vec3>(), zero<Vec3>()});
     };
     const Matrix12 expected = -jacobian(forces, p, 1e-4);
     const Matrix12 found = cohesive_stiffness(law, rest, d, history, CohesiveSlope::tangent);
@@ -340,8 +339,7 @@ TEST(cohesion, a_closed_contact_has_the_stiffness_of_both_modes) {
   };
   const Matrix12 expected = -jacobian(forces, c.p);
   for (const auto slope : {CohesiveSlope::undamaged, CohesiveSlope::secant, CohesiveSlope::tangent}) {
-    const Matrix12 found =
-        cohesive_stiffness(both, rest, state(c, c.p), {0, 0}, slope);
+    const Matrix12 found = cohesive_stiffness(both, rest, state(c, c.p), {0, 0}, slope);
     EXPECT_LT((found - expected).norm(), 1e-8 * expected.norm());
   }
 }
@@ -358,12 +356,10 @@ TEST(cohesion, an_opened_contact_slides_more_easily_by_the_share_that_turns_with
   const Vec3 d(2.08, 0, 0);
   const auto arms = contact_arms(Vec3(2, 0, 0), 0.8, 1.2, identity(), identity());
   const Pair p{zero<Vec3>(), d, identity(), identity()};
-  const auto forces = [&](const Pair& at) {
-    return generalised(act(both, arms, at.d(), at.q1, at.q2, {0, 0}).wrench);
-  };
+  const auto forces = [&](const Pair& at) { return generalised(act(both, arms, at.d(), at.q1, at.q2, {0, 0}).wrench); };
   const Matrix12 expected = -jacobian(forces, p, 1e-4);
-  const Matrix12 found =
-      cohesive_stiffness(both, rest, pair_faces<Real>(rest.length, arms, d, p.q1, p.q2), {0, 0}, CohesiveSlope::tangent);
+  const Matrix12 found = cohesive_stiffness(both, rest, pair_faces<Real>(rest.length, arms, d, p.q1, p.q2), {0, 0},
+                                            CohesiveSlope::tangent);
   EXPECT_LT((found - expected).norm(), 1e-8 * expected.norm());
 }
 
@@ -372,12 +368,10 @@ TEST(cohesion, a_contact_that_softens_in_shear_has_its_slope_along_the_slip_and_
   const Vec3 d(2, 0, 0);
   const auto arms = contact_arms(d, 1, 1, identity(), identity());
   const Pair p{zero<Vec3>(), d, identity(), exp_map(Vec3(0, 0, 5e-5))};
-  const auto torque = [&](const Pair& at) {
-    return generalised(act(fine, arms, at.d(), at.q1, at.q2, {0, 0}).wrench);
-  };
+  const auto torque = [&](const Pair& at) { return generalised(act(fine, arms, at.d(), at.q1, at.q2, {0, 0}).wrench); };
   const Matrix12 expected = -jacobian(torque, p, 1e-6);
-  const Matrix12 found =
-      cohesive_stiffness(fine, rest, pair_faces<Real>(rest.length, arms, d, p.q1, p.q2), {0, 0}, CohesiveSlope::tangent);
+  const Matrix12 found = cohesive_stiffness(fine, rest, pair_faces<Real>(rest.length, arms, d, p.q1, p.q2), {0, 0},
+                                            CohesiveSlope::tangent);
   EXPECT_LT(found(11, 11), 0);  // about z: softening
   EXPECT_GT(found(10, 10), 0);  // about y: across the slip
   EXPECT_LT((found - expected).norm(), 1e-3 * expected.norm());
@@ -385,8 +379,7 @@ TEST(cohesion, a_contact_that_softens_in_shear_has_its_slope_along_the_slip_and_
 
 TEST(cohesion, a_softening_contact_has_a_negative_slope_and_a_positive_secant) {
   EXPECT_NEAR(traction_slope(law, 0.5, 0.3, CohesiveSlope::tangent), -6 / 0.9, 1e-14);
-  EXPECT_NEAR(traction_slope(law, 0.5, 0.5 + 1e-9, CohesiveSlope::tangent), traction(law, 0.5, 0.5) / 0.5,
-              1e-6);
+  EXPECT_NEAR(traction_slope(law, 0.5, 0.5 + 1e-9, CohesiveSlope::tangent), traction(law, 0.5, 0.5) / 0.5, 1e-6);
   EXPECT_NEAR(traction_slope(law, 0.5, 0.3, CohesiveSlope::secant), traction(law, 0.5, 0.3) / 0.5, 1e-14);
   EXPECT_EQ(traction_slope(law, 0.5, 0.3, CohesiveSlope::undamaged), 60);
   EXPECT_EQ(traction_slope(law, 2, 0, CohesiveSlope::tangent), 0);

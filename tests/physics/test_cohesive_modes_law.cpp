@@ -23,11 +23,14 @@ struct Acted {
 Acted act(const MixedMode& law, const Openings<Real>& u, const Memory& before) {
   const Memory after = law.next(u, before);
   const Openings<Real> share = law.share(u, after, law.failed(after));
-  return {share.normal * law.normal.stiffness * u.normal, share.shear * law.shear.stiffness * u.shear, after, law.released(u, before, after)};
+  return {share.normal * law.normal.stiffness * u.normal, share.shear * law.shear.stiffness * u.shear, after,
+          law.released(u, before, after)};
 }
 
 /// Openings in proportion whose energies are as 1 - B to B, of size 1.
-Openings<Real> direction(Real mix) { return {std::sqrt((1 - mix) / opens.stiffness), std::sqrt(mix / slides.stiffness)}; }
+Openings<Real> direction(Real mix) {
+  return {std::sqrt((1 - mix) / opens.stiffness), std::sqrt(mix / slides.stiffness)};
+}
 
 /// Follows a path of openings, u(0) = 0 to u(1), in steps.
 struct Followed {
@@ -56,7 +59,8 @@ Followed follow(const MixedMode& law, const Path& path, int steps) {
 
 TEST(mixed_mode, powers_are_those_of_the_library) {
   for (const Real p : {0.5, 0.75, 1., 1.45, 2., 2.284, 3.7, 10.})
-    for (const Real x : {1e-15, 1e-6, 0.01, 0.3, 0.5, 0.999, 1.}) EXPECT_NEAR(UnitPower(p)(x) / std::pow(x, p), 1, 1e-12) << p << " " << x;
+    for (const Real x : {1e-15, 1e-6, 0.01, 0.3, 0.5, 0.999, 1.})
+      EXPECT_NEAR(UnitPower(p)(x) / std::pow(x, p), 1, 1e-12) << p << " " << x;
   EXPECT_EQ(UnitPower(2.3)(0.), 0);
   EXPECT_EQ(UnitPower(2.3)(1.), 1);
   EXPECT_EQ(UnitPower(2)(0.5), 0.25);
@@ -65,12 +69,13 @@ TEST(mixed_mode, powers_are_those_of_the_library) {
 TEST(mixed_mode, openings_in_proportion_dissipate_the_energy_of_the_criterion) {
   for (const Real B : {0., 0.25, 0.5, 0.75, 1.}) {
     const auto way = [&](Real s) { return Openings<Real>{20 * s * direction(B).normal, 20 * s * direction(B).shear}; };
-    for (const auto& [law, energy] : {std::pair(linear, 1 / ((1 - B) / 3 + B / 8)), std::pair(kenane, 3 + 5 * std::pow(B, 2.284))}) {
+    for (const auto& [law, energy] :
+         {std::pair(linear, 1 / ((1 - B) / 3 + B / 8)), std::pair(kenane, 3 + 5 * std::pow(B, 2.284))}) {
       const Followed f = follow(law, way, 100000);
       EXPECT_EQ(f.memory.integrity, 0) << B;
       EXPECT_NEAR(f.work, energy, 1e-5 * energy) << B;
       EXPECT_NEAR(f.released, energy, 1e-12 * energy) << B;
-      EXPECT_NEAR(f.peak_criterion, 1, 1e-2) << B;                         // onset: (t_n/6)^2 + (t_s/8)^2 = 1
+      EXPECT_NEAR(f.peak_criterion, 1, 1e-2) << B;                             // onset: (t_n/6)^2 + (t_s/8)^2 = 1
       EXPECT_NEAR(follow(law, way, 1).released, energy, 1e-12 * energy) << B;  // torn in one step
     }
   }

@@ -73,7 +73,8 @@ TEST_P(Oscillator, books_what_its_damping_takes) {
   EXPECT_LT(fine, coarse / 3.3);
 }
 
-// The watch takes off what the scheme swings by and what the booking lags behind by; nothing else is left, be the step as long as it may.
+// The watch takes off what the scheme swings by and what the booking lags behind by; nothing else is left, be the step
+// as long as it may.
 TEST_P(Oscillator, keeps_its_balance_to_round_off_at_any_step) {
   for (const char* safety : {"0.95", "0.5", "0.1"}) {
     const auto run = oscillator(GetParam(), fmt::format("safety=\"{}\"", safety), 100 / omega);

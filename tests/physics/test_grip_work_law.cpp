@@ -24,8 +24,9 @@ testing::DeckRun break_of_pair(const std::string& more_bonds, const std::string&
     <move><verlet time-step="0.2 us" until="60"/></move>
     <watch><energy-ledger every="1"/></watch>
   </scene>)",
-                                       fmt::format(ball, "a", "0 0 0 mm", 1), fmt::format(ball, "b", "2 0 0 mm", 1), fmt::format(ball, "a", "0 5 0 mm", 1),
-                                       fmt::format(ball, "b", "1.9 5 0 mm", 0.9), more_bonds, loads));
+                                       fmt::format(ball, "a", "0 0 0 mm", 1), fmt::format(ball, "b", "2 0 0 mm", 1),
+                                       fmt::format(ball, "a", "0 5 0 mm", 1), fmt::format(ball, "b", "1.9 5 0 mm", 0.9),
+                                       more_bonds, loads));
 }
 
 TEST(GripWork, closes_the_balance_exactly_where_all_ends_are_prescribed) {
@@ -36,8 +37,9 @@ TEST(GripWork, closes_the_balance_exactly_where_all_ends_are_prescribed) {
 }
 
 TEST(GripWork, closes_the_balance_where_the_reaction_of_a_mean_drops) {
-  const auto run = break_of_pair(R"(<cohesive-beam name="tie" between="b b" gap="2" young="100 GPa" radius-ratio="0.5"/>)",
-                                 R"(<pull set="b" axis="x" velocity="5 m/s" grip="mean"/><hold set="b" axes="y z"/>)");
+  const auto run =
+      break_of_pair(R"(<cohesive-beam name="tie" between="b b" gap="2" young="100 GPa" radius-ratio="0.5"/>)",
+                    R"(<pull set="b" axis="x" velocity="5 m/s" grip="mean"/><hold set="b" axes="y z"/>)");
   ASSERT_EQ(run.summary.at("breaks").at("axial"), 2);
   EXPECT_LT(largest_residual(run), 2e-3 * run.energy("work"));
 }
@@ -77,9 +79,11 @@ TEST_P(MirroredBar, loses_a_fourth_of_the_balance_s_error_with_half_the_step) {
 
 INSTANTIATE_TEST_SUITE_P(Grips, MirroredBar, ::testing::Values("each", "mean"));
 
-// Velocities by a table have kinks, at which a trapezoid of the grip's own inertia would be wrong by a first-order term each time.
+// Velocities by a table have kinks, at which a trapezoid of the grip's own inertia would be wrong by a first-order term
+// each time.
 TEST(GripWork, of_inertia_is_the_kinetic_energy_whatever_kinks_the_velocity_has) {
-  const auto run = testing::run_deck(fmt::format(R"(<scene>
+  const auto run =
+      testing::run_deck(fmt::format(R"(<scene>
     <fill>{}{}</fill>
     <bond><spring name="s" between="a b" young="10 GPa"/></bond>
     <load><hold set="a"/><hold set="b" axes="y z"/>
@@ -87,7 +91,7 @@ TEST(GripWork, of_inertia_is_the_kinetic_energy_whatever_kinks_the_velocity_has)
     <move><verlet time-step="0.1 us" until="8 us"/></move>
     <watch><energy-ledger every="1"/></watch>
   </scene>)",
-                                                 fmt::format(ball, "a", "0 0 0 mm", 1), fmt::format(ball, "b", "2 0 0 mm", 1)));
+                                    fmt::format(ball, "a", "0 0 0 mm", 1), fmt::format(ball, "b", "2 0 0 mm", 1)));
   EXPECT_LT(largest_residual(run), 1e-12 * run.largest("energy", "work"));
 }
 

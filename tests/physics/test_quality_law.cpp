@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 // A bar of eight elements, or more, two in each direction across.
-testing::DeckRun bar(const std::string& load, const std::string& until, const std::string& fail = "", int elements = 8) {
+testing::DeckRun bar(const std::string& load, const std::string& until, const std::string& fail = "",
+                     int elements = 8) {
   return testing::run_deck(fmt::format(R"(<scene>
     <fill><lattice set="bar" count="{} 2 2" radius="1 mm" density="2000 kg/m^3"/>
       <region set="left" where="x &lt; 2 mm"/><region set="right" where="x > {} mm"/></fill>
@@ -26,7 +27,9 @@ testing::DeckRun bar(const std::string& load, const std::string& until, const st
 }
 
 std::string pull(Real velocity, const std::string& rise) {
-  return fmt::format(R"(<hold set="left" axes="x"/><hold set="bar" axes="y z rx" grip="mean"/><pull set="right" axis="x" velocity="{} m/s" rise="{}"/>)", velocity, rise);
+  return fmt::format(
+      R"(<hold set="left" axes="x"/><hold set="bar" axes="y z rx" grip="mean"/><pull set="right" axis="x" velocity="{} m/s" rise="{}"/>)",
+      velocity, rise);
 }
 
 TEST(QualityOfRuns, a_slow_pull_is_good_and_a_fast_one_is_not) {
@@ -48,7 +51,8 @@ TEST(QualityOfRuns, a_slow_test_that_ends_with_a_break_is_good_up_to_it) {
 // All of it is over within the first hundred steps, before the first look that is due.
 TEST(QualityOfRuns, a_bar_that_a_wave_tears_is_not_good) {
   for (const Real velocity : {1.0, 2.0, 2.5}) {
-    const auto run = bar(pull(velocity, "5 us"), "0.1 mm", R"(<bond-stress of="beam" strength="20 MPa" measure="axial"/>)", 20);
+    const auto run =
+        bar(pull(velocity, "5 us"), "0.1 mm", R"(<bond-stress of="beam" strength="20 MPa" measure="axial"/>)", 20);
     ASSERT_FALSE(run.summary.at("breaks").empty());
     const auto quality = run.summary.at("quality");
     EXPECT_EQ(quality.at("verdict"), "poor") << velocity << " m/s: " << quality.dump(1);
@@ -91,17 +95,22 @@ TEST(QualityOfRuns, a_violent_stage_is_not_excused_by_the_next) {
   EXPECT_EQ(run.summary.at("quality").at("verdict"), "poor") << run.summary.at("quality").dump(1);
 }
 
-// The middle of the bar is on rollers and pushed sideways by a hair: nothing holds that, and it goes as far as it flies.
+// The middle of the bar is on rollers and pushed sideways by a hair: nothing holds that, and it goes as far as it
+// flies.
 TEST(QualityOfRuns, a_free_motion_is_followed_as_far_as_it_goes) {
-  const auto run = bar(R"(<hold set="bar" axes="x ry rz" grip="mean"/><hold set="left" axes="z"/><initial-velocity set="bar" velocity="0 0.5 0 m/s"/>)", "1 ms");
+  const auto run = bar(
+      R"(<hold set="bar" axes="x ry rz" grip="mean"/><hold set="left" axes="z"/><initial-velocity set="bar" velocity="0 0.5 0 m/s"/>)",
+      "1 ms");
   EXPECT_THAT(run.said, Contains(HasSubstr("a body of 32 bonded elements is free to move along y")));
   EXPECT_NEAR(run.summary.at("quality").at("free_motion").get<Real>(), 0.5e-3, 1e-6);
 }
 
 // It flies sideways at 0.1 mm/s for 2 ms, while it is pulled by 10 um and put back.
 TEST(QualityOfRuns, a_free_motion_is_held_against_the_farthest_prescribed_one) {
-  const auto run = bar(R"(<hold set="left" axes="x"/><hold set="bar" axes="z rx" grip="mean"/><initial-velocity set="bar" velocity="0 0.1 0 mm/s"/>
-    <pull set="right" axis="x" table="0 s 0 m/s, 0.5 ms 0.02 m/s, 1 ms 0 m/s, 1.5 ms -0.02 m/s, 2 ms 0 m/s"/>)", "1.999 ms");
+  const auto run = bar(
+      R"(<hold set="left" axes="x"/><hold set="bar" axes="z rx" grip="mean"/><initial-velocity set="bar" velocity="0 0.1 0 mm/s"/>
+    <pull set="right" axis="x" table="0 s 0 m/s, 0.5 ms 0.02 m/s, 1 ms 0 m/s, 1.5 ms -0.02 m/s, 2 ms 0 m/s"/>)",
+      "1.999 ms");
   EXPECT_NEAR(run.summary.at("quality").at("free_motion_over_prescribed").get<Real>(), 0.02, 0.004);
 }
 
@@ -115,11 +124,13 @@ TEST(QualityOfRuns, what_gets_thinner_does_not_drift) {
     <move><verlet bond-damping="0.1" until="0.02 mm"/></move>
   </scene>)");
   const auto quality = run.summary.at("quality");
-  ASSERT_EQ(quality.at("free_bodies").at(0).at("free_to"), (std::vector<std::string>{"move along y", "move along z", "turn about x"}));
+  ASSERT_EQ(quality.at("free_bodies").at(0).at("free_to"),
+            (std::vector<std::string>{"move along y", "move along z", "turn about x"}));
   EXPECT_LT(quality.at("free_motion_over_prescribed"), 0.02) << quality.dump(1);
 }
 
-// One mean over two bars is one support, and they fly apart; of one bar it is a support of that one, the other being held otherwise.
+// One mean over two bars is one support, and they fly apart; of one bar it is a support of that one, the other being
+// held otherwise.
 TEST(QualityOfRuns, bodies_that_share_a_support_are_free_against_each_other) {
   const auto bars = [](const std::string& load) {
     return testing::run_deck(fmt::format(R"(<scene>
@@ -131,11 +142,14 @@ TEST(QualityOfRuns, bodies_that_share_a_support_are_free_against_each_other) {
     </scene>)",
                                          load));
   };
-  const auto apart = bars(R"(<hold set="all" axes="x y z rx ry rz" grip="mean"/><initial-velocity set="a" velocity="0.1 0 0 m/s"/>
+  const auto apart =
+      bars(R"(<hold set="all" axes="x y z rx ry rz" grip="mean"/><initial-velocity set="a" velocity="0.1 0 0 m/s"/>
     <initial-velocity set="b" velocity="-0.1 0 0 m/s"/>)");
-  EXPECT_THAT(apart.said, Contains(HasSubstr("a body of 24 bonded elements is free to move and turn any way")).Times(2));
+  EXPECT_THAT(apart.said,
+              Contains(HasSubstr("a body of 24 bonded elements is free to move and turn any way")).Times(2));
   EXPECT_NEAR(apart.summary.at("quality").at("free_motion").get<Real>(), 1e-4, 1e-6);
-  const auto held = bars(R"(<hold set="a" axes="x y z rx ry rz" grip="mean"/><hold set="b" axes="x y z rx ry rz" grip="mean"/>)");
+  const auto held =
+      bars(R"(<hold set="a" axes="x y z rx ry rz" grip="mean"/><hold set="b" axes="x y z rx ry rz" grip="mean"/>)");
   EXPECT_THAT(held.summary.at("quality").at("free_bodies"), IsEmpty());
 }
 
@@ -146,18 +160,23 @@ TEST(QualityOfRuns, nothing_is_said_of_a_body_that_is_held) {
 }
 
 TEST(QualityOfRuns, a_projectile_is_dynamic) {
-  const auto run = bar(R"(<initial-velocity set="bar" velocity="0 0.5 0 m/s"/><initial-velocity set="left" velocity="0.5 0 0 m/s"/>)", "2000");
+  const auto run = bar(
+      R"(<initial-velocity set="bar" velocity="0 0.5 0 m/s"/><initial-velocity set="left" velocity="0.5 0 0 m/s"/>)",
+      "2000");
   EXPECT_EQ(run.summary.at("quality").at("verdict"), "dynamic");
   EXPECT_THAT(run.said, ::testing::Not(Contains(HasSubstr("is free to"))));
 }
 
 TEST(QualityOfRuns, a_push_is_in_balance_with_what_holds_against_it) {
-  const auto run = bar(R"(<hold set="left"/><push set="right" force="10 0 0 N" rise="1 ms"/>)", "2 ms").summary.at("quality");
+  const auto run =
+      bar(R"(<hold set="left"/><push set="right" force="10 0 0 N" rise="1 ms"/>)", "2 ms").summary.at("quality");
   EXPECT_LT(run.at("reactions_imbalance"), 0.01);
   EXPECT_EQ(run.at("verdict"), "good") << run.dump(1);
 }
 
-TEST(QualityOfRuns, a_run_of_nothing_is_idle) { EXPECT_EQ(bar(R"(<hold set="left"/>)", "200").summary.at("quality").at("verdict"), "idle"); }
+TEST(QualityOfRuns, a_run_of_nothing_is_idle) {
+  EXPECT_EQ(bar(R"(<hold set="left"/>)", "200").summary.at("quality").at("verdict"), "idle");
+}
 
 }  // namespace
 }  // namespace beadwork

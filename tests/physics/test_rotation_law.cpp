@@ -44,13 +44,11 @@ TEST(rotation, a_product_turns_first_by_the_right_then_by_the_left) {
 
 TEST(rotation, the_logarithm_undoes_the_exponential_up_to_half_a_turn) {
   Random random(3);
-  for (const Real angle :
-       {0., 1e-300, 1e-160, 1e-12, 1e-8, 0.99e-4, 1.01e-4, 1e-3, 1., 3., pi - 1e-6, pi - 1e-12}) {
+  for (const Real angle : {0., 1e-300, 1e-160, 1e-12, 1e-8, 0.99e-4, 1.01e-4, 1e-3, 1., 3., pi - 1e-6, pi - 1e-12}) {
     const Vec3 turn = random_vector(random, 1).normalized() * angle;
     EXPECT_LT((log_map(exp_map(turn)) - turn).norm(), 4e-15 * (angle + 1e-16)) << angle;
     const Quat q = exp_map(turn);
-    EXPECT_LT((log_map(Quat{-q.w, -q.v}) - turn).norm(), 4e-15 * (angle + 1e-16))
-        << angle;  // -q is the same rotation
+    EXPECT_LT((log_map(Quat{-q.w, -q.v}) - turn).norm(), 4e-15 * (angle + 1e-16)) << angle;  // -q is the same rotation
   }
 }
 

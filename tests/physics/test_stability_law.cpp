@@ -9,8 +9,8 @@
 #include "core/base/parallel.hpp"
 #include "core/mechanics/beam_stiffness.hpp"
 #include "core/mechanics/cohesive_stiffness.hpp"
-#include "core/mechanics/spring_stiffness.hpp"
 #include "core/mechanics/sphere.hpp"
+#include "core/mechanics/spring_stiffness.hpp"
 #include "tests/support/mechanics.hpp"
 
 namespace beadwork {
@@ -52,8 +52,7 @@ Scene random_network(int nx, int ny, int nz, Real radius_ratio, std::uint64_t se
   for (const auto& [gap, i, j] : pairs) {
     const Vec3 d = s.x[j] - s.x[i];
     s.bonds.emplace_back(i, j);
-    s.network.add(i, j,
-                  beam_stiffness(round_beam(d, 1, 0.3, radius_ratio * 0.5 * (s.radius[i] + s.radius[j])), d));
+    s.network.add(i, j, beam_stiffness(round_beam(d, 1, 0.3, radius_ratio * 0.5 * (s.radius[i] + s.radius[j])), d));
   }
   return s;
 }
@@ -112,8 +111,7 @@ TEST(stability, a_pair_has_the_frequencies_of_the_closed_forms) {
     Eigen::Matrix<Real, 12, 1> inverse;
     inverse << Vec3::Constant(1 / m1), Vec3::Constant(1 / I1), Vec3::Constant(1 / m2), Vec3::Constant(1 / I2);
     const Real expected = std::max({modes.axial, modes.torsion, modes.bending});
-    EXPECT_NEAR(bond_lambda(beam_stiffness(rest, Vec3(0, 2, 0)), inverse), expected, 1e-12 * expected)
-        << ratio;
+    EXPECT_NEAR(bond_lambda(beam_stiffness(rest, Vec3(0, 2, 0)), inverse), expected, 1e-12 * expected) << ratio;
   }
 }
 

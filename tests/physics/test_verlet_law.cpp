@@ -101,8 +101,7 @@ struct Chain {
   void run(Real dt, int steps) {
     Eigen::VectorXd a = force(x);
     for (int step = 0; step < steps; ++step) {
-      for (int i = 0; i < count; ++i)
-        x[i] = advance<Real>(Vec3(x[i], 0, 0), Vec3(v[i], 0, 0), Vec3(a[i], 0, 0), dt)[0];
+      for (int i = 0; i < count; ++i) x[i] = advance<Real>(Vec3(x[i], 0, 0), Vec3(v[i], 0, 0), Vec3(a[i], 0, 0), dt)[0];
       const Eigen::VectorXd next = force(x);
       for (int i = 0; i < count; ++i)
         v[i] = correct<Real>(Vec3(v[i], 0, 0), Vec3(a[i], 0, 0), Vec3(next[i], 0, 0), 1, dt)[0];
@@ -188,8 +187,7 @@ TEST(verlet, orientations_are_of_second_order) {
     return q;
   };
   const Quat fine = off(8000);
-  const Real coarse = log_map(relative(fine, off(50))).norm(),
-             half = log_map(relative(fine, off(100))).norm();
+  const Real coarse = log_map(relative(fine, off(50))).norm(), half = log_map(relative(fine, off(100))).norm();
   EXPECT_NEAR(coarse / half, 4, 0.1);
 }
 
@@ -205,8 +203,7 @@ TEST(verlet, ten_thousand_revolutions_of_a_bonded_pair_keep_energy_spin_and_the_
   const Real dt = 2 * pi / rate / per_turn;
   ASSERT_LT(dt, 2 / std::sqrt(2 * rest.axial / m));
   const auto energy = [&] {
-    return 0.5 * (m * v1.squaredNorm() + m * v2.squaredNorm() +
-                  inertia * (w1.squaredNorm() + w2.squaredNorm())) +
+    return 0.5 * (m * v1.squaredNorm() + m * v2.squaredNorm() + inertia * (w1.squaredNorm() + w2.squaredNorm())) +
            beam_energy(rest, x2 - x1, q1, q2).total();
   };
   const auto spin = [&]() -> Vec3 { return m * (cross(x1, v1) + cross(x2, v2)) + inertia * (w1 + w2); };

@@ -29,8 +29,7 @@ TEST(virial, both_ends_get_the_same) {
 
 TEST(virial, is_the_symmetric_product_of_equation_six) {
   Random random(2);
-  const Vec3 r = random_vector(random, 1),
-             on_i = random_vector(random, 1);  // r_ij and f_ij of end 1: force is -f_ij
+  const Vec3 r = random_vector(random, 1), on_i = random_vector(random, 1);  // r_ij and f_ij of end 1: force is -f_ij
   const Mat3 expected = 1 / (2 * 0.7) * 0.5 * (r * on_i.transpose() + on_i * r.transpose());
   const auto found = bond_virial<Real>(r, -on_i);
   EXPECT_LT((virial_stress(found, 0.7) - expected).norm(), 1e-15);

@@ -44,7 +44,8 @@ void plain_scalar_loop(benchmark::State& state) {
     }
     benchmark::DoNotOptimize(load.data());
   }
-  state.counters["bonds"] = benchmark::Counter(static_cast<double>(rest.size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bonds"] =
+      benchmark::Counter(static_cast<double>(rest.size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(plain_scalar_loop)->Unit(benchmark::kMillisecond)->Repetitions(5)->ReportAggregatesOnly();
 
@@ -55,9 +56,16 @@ void core_loop(benchmark::State& state) {
     bond_loop::run<Pass{}>(scene.law, *scene.table, scene.domain, true);
     scene.domain.gather();
   }
-  state.counters["bonds"] = benchmark::Counter(static_cast<double>(scene.table->size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bonds"] =
+      benchmark::Counter(static_cast<double>(scene.table->size()), benchmark::Counter::kIsIterationInvariantRate);
 }
-BENCHMARK(core_loop)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
+BENCHMARK(core_loop)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Repetitions(5)
+    ->ReportAggregatesOnly();
 
 }  // namespace
 }  // namespace beadwork

@@ -1,5 +1,5 @@
-// Three ways to bring the forces of bonds to the elements, each with bits that do not depend on the number of threads, measured with the
-// same packs and the same law (docs/decisions/sums-in-chunks.md):
+// Three ways to bring the forces of bonds to the elements, each with bits that do not depend on the number of threads,
+// measured with the same packs and the same law (docs/decisions/sums-in-chunks.md):
 //
 //   chunks     as the core does it: each chunk of bonds adds to its own elements, and to halo rows that are added afterwards
 //   stored     forces of each bond are stored, then each element gathers those of its bonds
@@ -26,7 +26,8 @@ Real* base(const Column& column) {
 }
 
 void report(benchmark::State& state, const Scene& scene) {
-  state.counters["bonds"] = benchmark::Counter(static_cast<double>(scene.table->size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["bonds"] =
+      benchmark::Counter(static_cast<double>(scene.table->size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void chunks(benchmark::State& state) {
@@ -91,7 +92,8 @@ void stored(benchmark::State& state) {
       const std::size_t b = pack * W;
       bool ignored = false;
       const auto row = static_cast<Index>(b);
-      const Lines out(scene.law.act<Pass{}>(Several<W>{row, &ignored}, elements.ends<Beams, W>(first + row, second + row)));
+      const Lines out(
+          scene.law.act<Pass{}>(Several<W>{row, &ignored}, elements.ends<Beams, W>(first + row, second + row)));
       for (std::size_t lane = 0; lane < W; ++lane) {
         Real* to = &lines[16 * (b + lane)];
         out.low1[lane].store(to);
@@ -121,7 +123,8 @@ struct Halves {
 
   explicit Halves(const Scene& scene) {
     const BondTable& table = *scene.table;
-    std::vector<std::vector<std::pair<Index, Index>>> of(static_cast<std::size_t>(scene.domain.size()));  // (bond, other end)
+    std::vector<std::vector<std::pair<Index, Index>>> of(
+        static_cast<std::size_t>(scene.domain.size()));  // (bond, other end)
     for (Index b = 0; b < table.size(); ++b) {
       of[static_cast<std::size_t>(table.first()[b])].emplace_back(b, table.second()[b]);
       of[static_cast<std::size_t>(table.second()[b])].emplace_back(b, table.first()[b]);
@@ -155,8 +158,13 @@ struct Halves {
   }
 
   Beams law() const {
-    const auto number = [](const std::vector<Real>& of) { return View<const Real>(reinterpret_cast<const std::byte*>(of.data()), sizeof(Real), 0); };
-    return {{reinterpret_cast<const std::byte*>(axis.data()), sizeof(Real), own.size() * sizeof(Real)}, number(length), number(axial), number(bending)};
+    const auto number = [](const std::vector<Real>& of) {
+      return View<const Real>(reinterpret_cast<const std::byte*>(of.data()), sizeof(Real), 0);
+    };
+    return {{reinterpret_cast<const std::byte*>(axis.data()), sizeof(Real), own.size() * sizeof(Real)},
+            number(length),
+            number(axial),
+            number(bending)};
   }
 };
 
@@ -174,7 +182,9 @@ void both_ends(benchmark::State& state) {
       elements.clear(static_cast<Index>(c) * length, std::min(static_cast<Index>(c + 1) * length, scene.domain.size()));
       for (Index h = halves.cuts[c]; h < halves.cuts[c + 1]; h += W) {
         bool ignored = false;
-        const Lines out(law.act<Pass{}>(Several<W>{h, &ignored}, elements.ends<Beams, W>(&halves.own[static_cast<std::size_t>(h)], &halves.other[static_cast<std::size_t>(h)])));
+        const Lines out(law.act<Pass{}>(Several<W>{h, &ignored},
+                                        elements.ends<Beams, W>(&halves.own[static_cast<std::size_t>(h)],
+                                                                &halves.other[static_cast<std::size_t>(h)])));
         for (std::size_t lane = 0; lane < W; ++lane) {
           Real* to = sums + 8 * static_cast<std::size_t>(halves.own[static_cast<std::size_t>(h) + lane]);
           (Quad::load(to) + out.low1[lane]).store(to);
@@ -187,9 +197,21 @@ void both_ends(benchmark::State& state) {
 }
 
 BENCHMARK(chunks)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
-BENCHMARK(chunks_without_law)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
+BENCHMARK(chunks_without_law)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Repetitions(5)
+    ->ReportAggregatesOnly();
 BENCHMARK(stored)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
-BENCHMARK(both_ends)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->Repetitions(5)->ReportAggregatesOnly();
+BENCHMARK(both_ends)
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Repetitions(5)
+    ->ReportAggregatesOnly();
 
 }  // namespace
 }  // namespace beadwork::speed

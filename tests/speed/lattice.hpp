@@ -1,6 +1,7 @@
 #pragma once
-// What the loops over bonds are measured on: a simple cubic lattice about as large as the bar of xml-cases/speed, bonded along axes and
-// one face diagonal, so that there are about 3.1 bonds an element; slightly moved and turned, so that no term of the law is zero.
+// What the loops over bonds are measured on: a simple cubic lattice about as large as the bar of xml-cases/speed,
+// bonded along axes and one face diagonal, so that there are about 3.1 bonds an element; slightly moved and turned, so
+// that no term of the law is zero.
 
 #include <utility>
 #include <vector>
@@ -81,8 +82,11 @@ struct Scene {
       q.set(n, turn);
     }
     table = &domain.add_family("beam");
-    const auto column = [&](const char* name, Type type) -> Column& { return table->rows().add({name, On::bonds, type, "1", "", ""}); };
-    column("axis", Type::vec3), column("length", Type::real), column("axial", Type::real), column("bending", Type::real);
+    const auto column = [&](const char* name, Type type) -> Column& {
+      return table->rows().add({name, On::bonds, type, "1", "", ""});
+    };
+    column("axis", Type::vec3), column("length", Type::real), column("axial", Type::real),
+        column("bending", Type::real);
     table->create(lattice.pairs, 0);
     domain.cut_families();
     const auto axis = table->rows().column("axis").view<Vec3>();

@@ -1,6 +1,5 @@
-// What one and two threads of this processor can do at best, for docs/performance.md: multiplications and additions that wait for
-// nothing, and streams through memory and through the cache.
-
+// What one and two threads of this processor can do at best, for docs/performance.md: multiplications and additions
+// that wait for nothing, and streams through memory and through the cache.
 
 #include <algorithm>
 #include <chrono>
@@ -68,6 +67,7 @@ int main() {
   using namespace beadwork::speed;
   for (const int threads : {1, 2}) {
     use_threads(threads);
-    std::printf("%d threads: %.1f Gflop/s; streams of 16 MB %.1f GB/s, of 400 MB %.1f GB/s\n", threads, gigaflops(threads), gigabytes(16), gigabytes(400));
+    std::printf("%d threads: %.1f Gflop/s; streams of 16 MB %.1f GB/s, of 400 MB %.1f GB/s\n", threads,
+                gigaflops(threads), gigabytes(16), gigabytes(400));
   }
 }

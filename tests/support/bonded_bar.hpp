@@ -1,5 +1,6 @@
 #pragma once
-// A domain as a run has it in its middle: elements in a line of cubes, a family of bonds with some broken, sets, breaks.
+// A domain as a run has it in its middle: elements in a line of cubes, a family of bonds with some broken, sets,
+// breaks.
 
 #include <cmath>
 
@@ -52,7 +53,8 @@ inline void break_some(Domain& domain, Index family, Index nth, std::int64_t ste
     if (bonds.state()[b] == State::broken) continue;
     bonds.state()[b] = State::broken;
     domain.breaks().breaks.push_back({1e-7 * static_cast<Real>(step), step, family, bonds.id()[b],
-                                      domain.breaks().mode(b % 2 ? "tension" : "shear"), position[bonds.first()[b]], some(b, 14)});
+                                      domain.breaks().mode(b % 2 ? "tension" : "shear"), position[bonds.first()[b]],
+                                      some(b, 14)});
   }
 }
 

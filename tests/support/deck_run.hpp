@@ -19,7 +19,7 @@ inline const std::filesystem::path laws = BEADWORK_BINARY_DIR "/lib/test-laws/te
 struct DeckRun {
   nlohmann::json summary;
   std::vector<std::string> said, warned;
-  std::string failure;  ///< what ended it, empty if it is done
+  std::string failure;                                                     ///< what ended it, empty if it is done
   std::map<std::string, std::vector<std::map<std::string, Real>>> curves;  ///< rows by column, units left out
   std::vector<Vec3> position, velocity;                                    ///< at the end, by row
 
@@ -70,7 +70,8 @@ inline DeckRun run_deck(const std::string& text) {
   complaints.throw_if_any();
   RunFolder folder = RunFolder::fresh(scratch / "out", false);
   RunOptions options;
-  options.log = Log([&](const std::string& line) { done.said.push_back(line); }, [&](const std::string& line) { done.warned.push_back(line); });
+  options.log = Log([&](const std::string& line) { done.said.push_back(line); },
+                    [&](const std::string& line) { done.warned.push_back(line); });
   {
     Run run(*scene, catalogue, folder, options);
     try {

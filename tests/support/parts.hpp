@@ -65,7 +65,8 @@ class Parts : private Workings {
  private:
   RunOptions listened_to() {
     RunOptions o;
-    o.log = Log([this](const std::string& line) { said.push_back(line); }, [this](const std::string& line) { warned.push_back(line); });
+    o.log = Log([this](const std::string& line) { said.push_back(line); },
+                [this](const std::string& line) { warned.push_back(line); });
     return o;
   }
   std::unique_ptr<Scene> assemble(const std::string& text, const std::vector<PluginEntry>& entries) {

@@ -9,11 +9,17 @@ namespace beadwork {
 namespace {
 
 template <class E>
-concept HasVelocities = requires(E ends) { ends.v1, ends.v2; };
+concept HasVelocities = requires(E ends) {
+  ends.v1, ends.v2;
+};
 template <class E>
-concept HasSpins = requires(E ends) { ends.w1, ends.w2; };
+concept HasSpins = requires(E ends) {
+  ends.w1, ends.w2;
+};
 template <class E>
-concept HasOrientations = requires(E ends) { ends.q1, ends.q2; };
+concept HasOrientations = requires(E ends) {
+  ends.q1, ends.q2;
+};
 
 struct Still {
   static constexpr bool turns = false;
@@ -29,7 +35,8 @@ struct TurningMoving {
 };
 
 template <class Law>
-constexpr int seen_by = HasOrientations<EndsOf<Law, Real>> * 100 + HasVelocities<EndsOf<Law, Real>> * 10 + HasSpins<EndsOf<Law, Real>>;
+constexpr int seen_by =
+    HasOrientations<EndsOf<Law, Real>> * 100 + HasVelocities<EndsOf<Law, Real>> * 10 + HasSpins<EndsOf<Law, Real>>;
 
 static_assert(seen_by<Still> == 0);
 static_assert(seen_by<Turning> == 100);
@@ -57,7 +64,9 @@ struct Honest : Forgetful {
 };
 
 template <class Law>
-concept Acts = requires(Law law, EndsOf<Law, Real> ends) { law.template act<Pass{}>(One{}, ends); };
+concept Acts = requires(Law law, EndsOf<Law, Real> ends) {
+  law.template act<Pass{}>(One{}, ends);
+};
 static_assert(Acts<Honest>);
 static_assert(!Acts<Forgetful>);
 

@@ -20,7 +20,12 @@ namespace fs = std::filesystem;
 namespace {
 
 CheckpointMeta some_meta(std::int64_t step = 4200) {
-  return {"0.1.0", "5e884898da28", "<scene name=\"bar\"/>", {0.1 + 0.2, step, 0.1, 1, 0.3, step / 2}, 18446744073709551615u, {{"seed state", "a b c"}}};
+  return {"0.1.0",
+          "5e884898da28",
+          "<scene name=\"bar\"/>",
+          {0.1 + 0.2, step, 0.1, 1, 0.3, step / 2},
+          18446744073709551615u,
+          {{"seed state", "a b c"}}};
 }
 
 struct Bar {
@@ -37,7 +42,8 @@ std::string bytes_of(const Column& column, Index rows) {
   const Type type = column.field().type;
   for (Index row = 0; row < rows; ++row)
     for (int c = 0; c < components(type); ++c) {
-      const auto offset = static_cast<std::size_t>(row) * column.stride() + static_cast<std::size_t>(c) * column.plane();
+      const auto offset =
+          static_cast<std::size_t>(row) * column.stride() + static_cast<std::size_t>(c) * column.plane();
       out.append(reinterpret_cast<const char*>(column.base() + offset), component_bytes(type));
     }
   return out;
@@ -97,7 +103,8 @@ TEST(Checkpoint, what_the_scene_lists_comes_back_and_must_be_as_long) {
   const Scratch scratch;
   const auto list_work = [](Domain& domain, Index rows) {
     domain.list("constraints").resize(rows);
-    return domain.list("constraints").add({"work", On::scene, Type::real, "J", "Work", ""}).keep(), domain.list("constraints").column("work").view<Real>();
+    return domain.list("constraints").add({"work", On::scene, Type::real, "J", "Work", ""}).keep(),
+           domain.list("constraints").column("work").view<Real>();
   };
   Bar bar(3), back, longer;
   const auto work = list_work(bar.domain, 2);
@@ -108,7 +115,10 @@ TEST(Checkpoint, what_the_scene_lists_comes_back_and_must_be_as_long) {
   EXPECT_EQ(got[0], 1.5);
   EXPECT_EQ(got[1], -0.1);
   list_work(longer.domain, 3);
-  EXPECT_NE(beadwork::testing::message_of<DeckFailure>([&] { load_checkpoint(scratch / "c.h5", longer.domain); }).find("does not list the 3 constraints"), std::string::npos);
+  EXPECT_NE(beadwork::testing::message_of<DeckFailure>([&] {
+              load_checkpoint(scratch / "c.h5", longer.domain);
+            }).find("does not list the 3 constraints"),
+            std::string::npos);
 }
 
 TEST(Checkpoint, numbers_that_are_no_numbers_keep_their_bits_too) {
@@ -123,7 +133,8 @@ TEST(Checkpoint, numbers_that_are_no_numbers_keep_their_bits_too) {
   Bar back;
   load_checkpoint(scratch / "c.h5", back.domain);
   const auto got = back.domain.elements().column("radius").view<Real>();
-  for (Index i = 0; i < 4; ++i) EXPECT_EQ(std::bit_cast<std::uint64_t>(got[i]), std::bit_cast<std::uint64_t>(radius[i]));
+  for (Index i = 0; i < 4; ++i)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(got[i]), std::bit_cast<std::uint64_t>(radius[i]));
 }
 
 TEST(Checkpoint, what_is_known_of_the_run_comes_back) {
@@ -261,7 +272,8 @@ TEST(Checkpoint, a_column_of_another_unit_or_type_is_refused_with_both) {
   domain.elements().add({"heat", On::elements, Type::real, "J", "", ""}).keep();
   domain.add_elements(1);
   save_checkpoint(scratch / "c.h5", domain, some_meta());
-  for (const Field& other : {Field{"heat", On::elements, Type::real, "K", "", ""}, Field{"heat", On::elements, Type::vec3, "J", "", ""}}) {
+  for (const Field& other :
+       {Field{"heat", On::elements, Type::real, "K", "", ""}, Field{"heat", On::elements, Type::vec3, "J", "", ""}}) {
     Domain back;
     back.elements().add(other).keep();
     const auto said = message_of<DeckFailure>([&] { load_checkpoint(scratch / "c.h5", back); });

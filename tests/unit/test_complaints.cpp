@@ -30,10 +30,9 @@ TEST(Complaints, stand_in_the_order_of_the_files_whatever_order_they_came_in) {
   complaints.error({second, 1, 1}, "two");
   complaints.warning({first, 2, 9}, "three");
   complaints.error({first, 2, 3}, "four");
-  EXPECT_EQ(
-      complaints.text(),
-      "z.xml:2:3: error: four\n\n  ^\nz.xml:2:9: warning: three\n\n        ^\nz.xml:12:1: error: one\n\n^\n"
-      "a.xml:1:1: error: two\n\n^\nerror: nowhere\n4 errors, 1 warning");
+  EXPECT_EQ(complaints.text(),
+            "z.xml:2:3: error: four\n\n  ^\nz.xml:2:9: warning: three\n\n        ^\nz.xml:12:1: error: one\n\n^\n"
+            "a.xml:1:1: error: two\n\n^\nerror: nowhere\n4 errors, 1 warning");
 }
 
 TEST(Complaints, are_handed_over_one_by_one_in_their_order_however_many) {
@@ -41,8 +40,9 @@ TEST(Complaints, are_handed_over_one_by_one_in_their_order_however_many) {
   const auto deck = file("deck.xml", "1 error: a\n1 error: b\n");
   complaints.warning({deck, 2, 1}, "two\nwarning: of two lines");
   complaints.error({deck, 1, 1}, "one");
-  EXPECT_THAT(complaints.each(), testing::ElementsAre("deck.xml:1:1: error: one\n1 error: a\n^\n",
-                                                      "deck.xml:2:1: warning: two\nwarning: of two lines\n1 error: b\n^\n"));
+  EXPECT_THAT(complaints.each(),
+              testing::ElementsAre("deck.xml:1:1: error: one\n1 error: a\n^\n",
+                                   "deck.xml:2:1: warning: two\nwarning: of two lines\n1 error: b\n^\n"));
   for (int k = 0; k < 100; ++k) complaints.error({}, std::to_string(k));
   EXPECT_EQ(complaints.each().size(), 102U);
 }

@@ -48,8 +48,10 @@ TEST(Curve, each_row_is_in_the_file_as_soon_as_it_is_added) {
 TEST(Curve, numbers_read_back_to_the_same_bits) {
   const Scratch scratch;
   std::mt19937_64 random(1);
-  std::vector<Real> numbers = {0.1, -0.0, 1 / 3.0, std::numeric_limits<Real>::denorm_min(), std::numeric_limits<Real>::max()};
-  for (int i = 0; i < 500; ++i) numbers.push_back(std::ldexp(static_cast<Real>(random()), static_cast<int>(random() % 1000) - 500));
+  std::vector<Real> numbers = {0.1, -0.0, 1 / 3.0, std::numeric_limits<Real>::denorm_min(),
+                               std::numeric_limits<Real>::max()};
+  for (int i = 0; i < 500; ++i)
+    numbers.push_back(std::ldexp(static_cast<Real>(random()), static_cast<int>(random() % 1000) - 500));
   Curve curve = Curve::fresh(scratch / "numbers.csv", {{"number", "1"}});
   for (const Real number : numbers) curve.add(0, {&number, 1});
   std::ifstream in(scratch / "numbers.csv");
@@ -57,7 +59,8 @@ TEST(Curve, numbers_read_back_to_the_same_bits) {
   std::getline(in, row);
   for (const Real number : numbers) {
     std::getline(in, row);
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(std::strtod(row.c_str() + 2, nullptr)), std::bit_cast<std::uint64_t>(number)) << row;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(std::strtod(row.c_str() + 2, nullptr)), std::bit_cast<std::uint64_t>(number))
+        << row;
   }
 }
 
@@ -95,12 +98,14 @@ TEST(Curve, that_is_shorter_than_the_checkpoint_knows_or_gone_is_told) {
   const Scratch scratch;
   write_text(scratch / "short.csv", "step [1],time [s]\n1,2\n");
   write_text(scratch / "whole.csv", "step [1],time [s]\n1,2\n3,4\n");
-  const std::map<std::string, CurveEnd> ends = {{"short", {26, "step [1],time [s]"}}, {"whole", {26, "step [1],time [s]"}}, {"gone", {26, "step [1],time [s]"}}};
+  const std::map<std::string, CurveEnd> ends = {
+      {"short", {26, "step [1],time [s]"}}, {"whole", {26, "step [1],time [s]"}}, {"gone", {26, "step [1],time [s]"}}};
   const auto cuts = cuts_to(ends, {scratch / "short.csv", scratch / "whole.csv"});
   const auto lost = lost_rows(ends, cuts);
   ASSERT_EQ(lost.size(), 2u);
   EXPECT_NE(lost[0].find("'gone' is gone"), std::string::npos) << lost[0];
-  EXPECT_NE(lost[1].find("'short' has lost rows: it goes on behind the first 22 of the 26 bytes"), std::string::npos) << lost[1];
+  EXPECT_NE(lost[1].find("'short' has lost rows: it goes on behind the first 22 of the 26 bytes"), std::string::npos)
+      << lost[1];
 }
 
 TEST(Curve, one_that_the_checkpoint_does_not_know_begins_anew) {
@@ -116,7 +121,8 @@ TEST(Curve, a_torn_last_row_is_dropped_wherever_it_was_torn) {
   const std::string whole = "step [1],time [s],force [N]\n0,0,0\n100,0.25,-7.5\n";
   const std::string last = "200,0.5,-12.25\n";
   for (std::size_t cut = 0; cut < last.size(); ++cut) {
-    for (const std::size_t known : {whole.size(), whole.size() + 100}) {  // rows that the checkpoint knew of may have been lost
+    for (const std::size_t known :
+         {whole.size(), whole.size() + 100}) {  // rows that the checkpoint knew of may have been lost
       write_text(scratch / "force.csv", whole + last.substr(0, cut));
       beadwork::cut(cuts_to({{"force", {known, time_and_force_line}}}, {scratch / "force.csv"}));
       EXPECT_EQ(text_of(scratch / "force.csv"), whole) << "torn after " << cut;
@@ -132,7 +138,8 @@ TEST(Curve, one_whose_columns_the_checkpoint_knows_otherwise_is_refused_before_a
   }
   const std::string before = text_of(scratch / "force.csv");
   const auto said = message_of<DeckFailure>([&] {
-    cut(cuts_to({{"force", {28, time_and_force_line}}, {"other", {28, "step [1],time [s],force [kN]"}}}, {scratch / "force.csv", scratch / "other.csv"}));
+    cut(cuts_to({{"force", {28, time_and_force_line}}, {"other", {28, "step [1],time [s],force [kN]"}}},
+                {scratch / "force.csv", scratch / "other.csv"}));
   });
   EXPECT_THAT(said, HasSubstr("other.csv"));
   EXPECT_THAT(said, HasSubstr("force [kN]"));

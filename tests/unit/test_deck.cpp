@@ -27,12 +27,11 @@ class ADeck : public testing::Test {
   }
   ~ADeck() override { std::filesystem::current_path("/"), std::filesystem::remove_all(folder); }
 
-  static void file(const std::string& name, const std::string& text) {
-    std::ofstream(name, std::ios::binary) << text;
-  }
+  static void file(const std::string& name, const std::string& text) { std::ofstream(name, std::ios::binary) << text; }
 
   /// Reads a deck of this text.
-  Deck& read(const std::string& text, const std::vector<Override>& overrides = {}, const std::vector<std::pair<std::string, std::string>>& others = {}) {
+  Deck& read(const std::string& text, const std::vector<Override>& overrides = {},
+             const std::vector<std::pair<std::string, std::string>>& others = {}) {
     file("deck.xml", text);
     for (const auto& [name, other] : others) file(name, other);
     deck = read_deck("deck.xml", overrides, complaints);
@@ -113,8 +112,7 @@ TEST_F(ADeck, that_is_not_well_formed_is_refused_at_the_place) {
   EXPECT_EQ(complaint("<scene a/>"), "deck.xml:1:8: error: 'a' needs a value in quotes: a=\"...\"");
   EXPECT_EQ(complaint("<scene>\n<a x=\"1/>\n<b y=\"2\"/>\n</scene>"),
             "deck.xml:2:6: error: this value runs over several lines: is its quote closed?");
-  EXPECT_EQ(complaint("<scene a=\"1/>"),
-            "deck.xml:1:10: error: the quote that opens this value is not closed");
+  EXPECT_EQ(complaint("<scene a=\"1/>"), "deck.xml:1:10: error: the quote that opens this value is not closed");
   EXPECT_THAT(complaint("<scene a=\"1 & 2\"/>"), HasSubstr("deck.xml:1:13: error: & begins an entity"));
   EXPECT_EQ(complaint("<scene><!-- </scene>"), "deck.xml:1:8: error: this comment is not closed by -->");
   EXPECT_THAT(complaint("<scene/><scene/>"), HasSubstr("deck.xml:1:10: error: a second root"));
@@ -130,8 +128,7 @@ TEST_F(ADeck, that_is_no_xml_at_all_is_refused) {
   EXPECT_THAT(complaint("units lj\natom_style sphere\n"), HasSubstr("deck.xml:1:1: error: this is no XML"));
   EXPECT_THAT(complaint(""), HasSubstr("a deck begins with <scene>"));
   EXPECT_THAT(complaint("  \n"), HasSubstr("a deck begins with <scene>"));
-  EXPECT_THAT(complaint(std::string("<scene\0/>", 9)),
-              HasSubstr("deck.xml:1:7: error: this is no text in UTF-8"));
+  EXPECT_THAT(complaint(std::string("<scene\0/>", 9)), HasSubstr("deck.xml:1:7: error: this is no text in UTF-8"));
   EXPECT_THAT(complaint("<scene>\n\xB5</scene>"), HasSubstr("deck.xml:2:1: error: this is no text in UTF-8"));
   EXPECT_EQ(complaint("\n<html/>"), "deck.xml:2:2: error: the root must be <scene>, not <html>");
 }
@@ -228,10 +225,8 @@ TEST_F(ADeck, with_a_parameter_that_depends_on_itself_is_refused_once) {
   EXPECT_FALSE(read_quantity(attribute("x"), "1", deck->scope, complaints));
   EXPECT_FALSE(read_quantity(attribute("y"), "1", deck->scope, complaints));
   EXPECT_FALSE(read_text(attribute("t"), deck->scope, complaints));
-  EXPECT_THAT(complaints.text(),
-              HasSubstr("deck.xml:2:28: error: parameter 'p' depends on itself: p -> q -> p\n"));
-  EXPECT_THAT(complaints.text(),
-              HasSubstr("deck.xml:4:28: error: parameter 'r' depends on itself: r -> r\n"));
+  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:28: error: parameter 'p' depends on itself: p -> q -> p\n"));
+  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:4:28: error: parameter 'r' depends on itself: r -> r\n"));
   EXPECT_EQ(complaints.errors(), 2) << complaints.text();
 }
 
@@ -243,8 +238,10 @@ TEST_F(ADeck, with_an_unused_parameter_is_refused) {
 
 TEST_F(ADeck, is_not_told_of_a_parameter_whose_user_could_not_be_read) {
   read(
-      "<scene><parameter name=\"E\" value=\"7 Gpa\"/><parameter name=\"I-x\" value=\"1 m^4\"/><parameter name=\"L\" value=\"${2*k}\"/>"
-      "<parameter name=\"k\" value=\"3 mm\"/>\n<parameter name=\"other\" value=\"1\"/><a q=\"${E*(I-x-1 m^4)/L}\"/></scene>");
+      "<scene><parameter name=\"E\" value=\"7 Gpa\"/><parameter name=\"I-x\" value=\"1 m^4\"/><parameter name=\"L\" "
+      "value=\"${2*k}\"/>"
+      "<parameter name=\"k\" value=\"3 mm\"/>\n<parameter name=\"other\" value=\"1\"/><a q=\"${E*(I-x-1 "
+      "m^4)/L}\"/></scene>");
   EXPECT_FALSE(read_quantity(attribute("q"), "N.m", deck->scope, complaints));
   EXPECT_EQ(complaints.errors(), 1) << complaints.text();
   deck->scope.complain_about_unused(*deck->root, complaints);
@@ -253,22 +250,17 @@ TEST_F(ADeck, is_not_told_of_a_parameter_whose_user_could_not_be_read) {
 }
 
 TEST_F(ADeck, with_two_parameters_of_one_name_is_refused) {
-  EXPECT_EQ(
-      complaint("<scene>\n<parameter name=\"p\" value=\"1\"/>\n<parameter name=\"p\" value=\"2\"/></scene>"),
-      "deck.xml:3:18: error: parameter 'p' is already defined at deck.xml:2:18");
+  EXPECT_EQ(complaint("<scene>\n<parameter name=\"p\" value=\"1\"/>\n<parameter name=\"p\" value=\"2\"/></scene>"),
+            "deck.xml:3:18: error: parameter 'p' is already defined at deck.xml:2:18");
 }
 
 TEST_F(ADeck, with_a_malformed_parameter_is_refused) {
-  EXPECT_EQ(complaint("<scene><parameter name=\"p\"/></scene>"),
-            "deck.xml:1:9: error: <parameter> needs 'value'");
-  EXPECT_EQ(complaint("<scene><parameter name=\"p\" value=\"\"/></scene>"),
-            "deck.xml:1:35: error: 'value' is empty");
+  EXPECT_EQ(complaint("<scene><parameter name=\"p\"/></scene>"), "deck.xml:1:9: error: <parameter> needs 'value'");
+  EXPECT_EQ(complaint("<scene><parameter name=\"p\" value=\"\"/></scene>"), "deck.xml:1:35: error: 'value' is empty");
   EXPECT_EQ(complaint("<scene><parameter name=\"p\" valeu=\"2\" value=\"1\"/></scene>"),
             "deck.xml:1:28: error: no attribute 'valeu' in <parameter>. Did you mean 'value'?");
-  EXPECT_THAT(complaint("<scene><parameter name=\"2p\" value=\"1\"/></scene>"),
-              HasSubstr("must begin with a letter"));
-  EXPECT_THAT(complaint("<scene><parameter name=\"and\" value=\"1\"/></scene>"),
-              HasSubstr("meaning of its own"));
+  EXPECT_THAT(complaint("<scene><parameter name=\"2p\" value=\"1\"/></scene>"), HasSubstr("must begin with a letter"));
+  EXPECT_THAT(complaint("<scene><parameter name=\"and\" value=\"1\"/></scene>"), HasSubstr("meaning of its own"));
   EXPECT_THAT(complaint("<scene><parameter name=\"p\" value=\"1\"><a/></parameter></scene>"),
               HasSubstr("nothing may stand inside"));
   EXPECT_THAT(complaint("<scene><fill><parameter name=\"p\" value=\"1\"/></fill></scene>"),
@@ -355,18 +347,21 @@ TEST_F(ADeck, with_a_value_of_megabytes_is_refused_in_few_words) {
 TEST_F(ADeck, may_hold_what_is_meant_for_other_tools) {
   read(
       "<?xml version=\"1.0\"?>\n<!-- a remark -->\n<?xml-model href=\"a.xsd\"?>\n<?xml-stylesheet href=\"a.css\"?>\n"
-      "<scene xml:lang=\"en\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" xsi:noNamespaceSchemaLocation=\"a.xsd\">"
+      "<scene xml:lang=\"en\" xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+      "xsi:noNamespaceSchemaLocation=\"a.xsd\">"
       "<parameter name=\"p\" value=\"1\" xml:id=\"here\"/><include file=\"part.xml\" xml:base=\"x\"/><?other tool?>"
       "<a xmlns:xi=\"x\" xml:space=\"preserve\" q=\"${p}\"/></scene>\n<?end?>\n",
       {}, {{"part.xml", "<scene xmlns=\"x\" xsi:type=\"y\"/>"}});
   EXPECT_TRUE(complaints.empty()) << complaints.text();
   ASSERT_EQ(deck->root->child("a")->attributes.size(), 1u);
   EXPECT_EQ(attribute("q").value_at.where(), "deck.xml:5:252");
-  EXPECT_THAT(complaint("<scene xmlnsx=\"a\"/>\n<?not closed"), HasSubstr("deck.xml:2:1: error: this is not closed by ?>"));
+  EXPECT_THAT(complaint("<scene xmlnsx=\"a\"/>\n<?not closed"),
+              HasSubstr("deck.xml:2:1: error: this is not closed by ?>"));
 }
 
 TEST_F(ADeck, takes_every_kind_of_blank_for_one) {
-  read("<scene>\n\u00A0\u3000<a\u00A0q=\"1\u00A02\u20093&#xA0;mm\"\u2003t=\"\u00A0one\u2009two\u00A0\"/>\u2028</scene>");
+  read(
+      "<scene>\n\u00A0\u3000<a\u00A0q=\"1\u00A02\u20093&#xA0;mm\"\u2003t=\"\u00A0one\u2009two\u00A0\"/>\u2028</scene>");
   EXPECT_EQ(read_vector(attribute("q"), "m", deck->scope, complaints), Vec3(1e-3, 2e-3, 3e-3));
   EXPECT_EQ(attribute("t").value_at.where(), "deck.xml:2:27") << "a column is a character, however many bytes it has";
   EXPECT_EQ(read_words(attribute("t"), deck->scope, complaints), (std::vector<std::string>{"one", "two"}));
@@ -376,18 +371,24 @@ TEST_F(ADeck, takes_every_kind_of_blank_for_one) {
 }
 
 TEST_F(ADeck, with_a_character_that_nobody_sees_is_refused_at_its_place) {
-  EXPECT_EQ(complaint("<scene>\n<a q=\"1\u200B mm\"/></scene>"), "deck.xml:2:8: error: U+200B, a zero-width space, stands here in 'q': delete it");
-  EXPECT_EQ(complaint("<scene>\n<a q=\"so\u00ADft\"/></scene>"), "deck.xml:2:9: error: U+00AD, a soft hyphen, stands here in 'q': delete it");
-  EXPECT_EQ(complaint("<scene>\n<a q=\"1&#x1B;\"/></scene>"), "deck.xml:2:8: error: U+001B, a control character, stands here in 'q': delete it");
-  EXPECT_EQ(complaint("<scene>\n\uFEFF<a/></scene>"),
-            "deck.xml:2:1: error: U+FEFF, a byte order mark, which may stand only at the beginning, stands here: delete it");
-  EXPECT_EQ(complaint("<scene>\n<a\u2060 q=\"1\"/></scene>"), "deck.xml:2:3: error: U+2060, a word joiner, stands here: delete it");
+  EXPECT_EQ(complaint("<scene>\n<a q=\"1\u200B mm\"/></scene>"),
+            "deck.xml:2:8: error: U+200B, a zero-width space, stands here in 'q': delete it");
+  EXPECT_EQ(complaint("<scene>\n<a q=\"so\u00ADft\"/></scene>"),
+            "deck.xml:2:9: error: U+00AD, a soft hyphen, stands here in 'q': delete it");
+  EXPECT_EQ(complaint("<scene>\n<a q=\"1&#x1B;\"/></scene>"),
+            "deck.xml:2:8: error: U+001B, a control character, stands here in 'q': delete it");
+  EXPECT_EQ(
+      complaint("<scene>\n\uFEFF<a/></scene>"),
+      "deck.xml:2:1: error: U+FEFF, a byte order mark, which may stand only at the beginning, stands here: delete it");
+  EXPECT_EQ(complaint("<scene>\n<a\u2060 q=\"1\"/></scene>"),
+            "deck.xml:2:3: error: U+2060, a word joiner, stands here: delete it");
   EXPECT_EQ(complaint("\u200B<scene/>"), "deck.xml:1:1: error: U+200B, a zero-width space, stands here: delete it");
   EXPECT_EQ(complaint("<scene><parameter name=\"p\" value=\"1\"/></scene>", {{"p", "1\u200B"}}),
             "--set:1:4: error: U+200B, a zero-width space, stands here: leave it out");
   EXPECT_EQ(complaint("<scene><parameter name=\"p\" value=\"1\"/></scene>", {{"p", "1\xFF"}}),
             "--set:1:4: error: a byte that is no text in UTF-8, stands here: leave it out");
-  EXPECT_EQ(complaint("<scene>\xED\xA0\x80</scene>"), "deck.xml:1:8: error: this is no text in UTF-8") << "half of a pair of UTF-16";
+  EXPECT_EQ(complaint("<scene>\xED\xA0\x80</scene>"), "deck.xml:1:8: error: this is no text in UTF-8")
+      << "half of a pair of UTF-16";
 }
 
 TEST_F(ADeck, with_a_curly_quote_is_told_so) {
@@ -459,7 +460,8 @@ TEST_F(AValue, that_is_not_what_is_wanted_is_refused_in_words) {
   EXPECT_EQ(said(), "11: 'value' wants J/m2, got \"5\" without a unit");
   EXPECT_FALSE(quantity("7.85 ton/m^3", "kg/m^3"));
   EXPECT_EQ(said(),
-            "16: 'value' wants a density such as \"1200 kg/m^3\", got \"7.85 ton/m^3\": unit \"ton\" is refused: there are several tons; write t "
+            "16: 'value' wants a density such as \"1200 kg/m^3\", got \"7.85 ton/m^3\": unit \"ton\" is refused: there "
+            "are several tons; write t "
             "(1000 kg), short_ton (907.18 kg) or long_ton (1016.05 kg)");
   EXPECT_FALSE(quantity("3 GPA", "Pa"));
   EXPECT_EQ(said(), "13: 'value' wants Pa, got \"3 GPA\": unknown unit \"GPA\". Did you mean \"GPa\"?");
@@ -473,8 +475,8 @@ TEST_F(AValue, that_is_not_what_is_wanted_is_refused_in_words) {
             "a unit already");
   EXPECT_FALSE(quantity("", "1"));
   EXPECT_EQ(said(), "11: 'value' wants a plain number, got nothing");
-  for (const char* bad : {"nan", "inf", "-inf", "1e999", "0x10", "abc", "mm", "--1", "5 mm mm", "${1/0}",
-                          "${side} mm", "${n > 2}", "1 ${n", "1.2.3", "1e308 km"}) {
+  for (const char* bad : {"nan", "inf", "-inf", "1e999", "0x10", "abc", "mm", "--1", "5 mm mm", "${1/0}", "${side} mm",
+                          "${n > 2}", "1 ${n", "1.2.3", "1e308 km"}) {
     EXPECT_FALSE(quantity(bad, "m")) << bad;
     said();
   }
@@ -488,8 +490,7 @@ TEST_F(AValue, points_into_its_expression) {
   EXPECT_FALSE(quantity("2*${side}", "m"));
   EXPECT_THAT(
       said(),
-      HasSubstr(
-          "12: 'value' wants a length such as \"1 mm\", got \"2*${side}\": arithmetic stands inside ${ }"));
+      HasSubstr("12: 'value' wants a length such as \"1 mm\", got \"2*${side}\": arithmetic stands inside ${ }"));
 }
 
 TEST_F(AValue, of_an_angle_needs_its_unit) {
@@ -510,9 +511,13 @@ TEST_F(AValue, that_is_zero_needs_no_unit) {
 
 TEST_F(AValue, with_a_sign_that_only_looks_like_the_one_that_is_meant_is_refused) {
   EXPECT_FALSE(quantity("\u22121 mm", "m"));
-  EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"\u22121 mm\": '\u2212' (U+2212; write -) means nothing here");
+  EXPECT_EQ(
+      said(),
+      "11: 'value' wants a length such as \"1 mm\", got \"\u22121 mm\": '\u2212' (U+2212; write -) means nothing here");
   EXPECT_FALSE(quantity("1\u20132 mm", "m"));
-  EXPECT_EQ(said(), "12: 'value' wants a length such as \"1 mm\", got \"1\u20132 mm\": '\u2013' (U+2013; write -) means nothing here");
+  EXPECT_EQ(said(),
+            "12: 'value' wants a length such as \"1 mm\", got \"1\u20132 mm\": '\u2013' (U+2013; write -) means "
+            "nothing here");
   EXPECT_FALSE(quantity("2 kg\u2044m", "kg/m"));
   EXPECT_THAT(said(), HasSubstr("15: 'value' wants")) << "at the sign itself";
 }
@@ -598,8 +603,7 @@ TEST_F(AValue, that_is_a_word_cannot_be_calculated_with) {
 // ---- Writing
 
 TEST(ResolvedDeck, is_canonical_xml_that_reads_back) {
-  const PlainNode scene{
-      "scene", {{"name", "a \"b\" <c> & d\n\te"}}, {{"fill", {}, {{"a", {{"x", "1 m"}}, {}}}}}};
+  const PlainNode scene{"scene", {{"name", "a \"b\" <c> & d\n\te"}}, {{"fill", {}, {{"a", {{"x", "1 m"}}, {}}}}}};
   const std::string xml = resolved_xml(scene);
   EXPECT_EQ(xml,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"a &quot;b&quot; &lt;c&gt; &amp; "

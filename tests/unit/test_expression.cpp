@@ -99,9 +99,8 @@ TEST_F(AnExpression, may_be_a_condition) {
   ASSERT_TRUE(compile("x < 13.5 mm"));
   EXPECT_TRUE(compile("x < 13.5 mm")->is_condition());
   EXPECT_FALSE(compile("x")->is_condition());
-  for (const char* is_true :
-       {"x < 3 mm and n == 3", "x >= 2 mm && n != 2", "not x > 3 mm", "n <= 3 or n > 10",
-        "not (n < 1 || n > 5)", "n < 1 or n > 2 and x > 1 mm", "if(n > 1, x < 1 m, n > 5)"})
+  for (const char* is_true : {"x < 3 mm and n == 3", "x >= 2 mm && n != 2", "not x > 3 mm", "n <= 3 or n > 10",
+                              "not (n < 1 || n > 5)", "n < 1 or n > 2 and x > 1 mm", "if(n > 1, x < 1 m, n > 5)"})
     EXPECT_EQ(value(is_true), 1) << is_true;
   for (const char* is_false : {"x < 1 mm", "n == 3 and x > 1 m", "not n == 3 and n == 3"})
     EXPECT_EQ(value(is_false), 0) << is_false;
@@ -122,19 +121,17 @@ TEST_F(AnExpression, takes_names_of_parameters_with_dots_and_hyphens) {
 }
 
 TEST_F(AnExpression, refuses_to_add_or_compare_what_has_another_dimension) {
-  EXPECT_EQ(complaint("x + n"),
-            "3: the two sides of '+' differ: the left is in m, the right is a plain number");
-  EXPECT_EQ(complaint("x < 3"),
-            "3: the two sides of '<' differ: the left is in m, the right is a plain number");
-  EXPECT_EQ(complaint("(1 + n)*(x - 25 MPa)"),
-            "12: the two sides of '-' differ: the left is in m, the right is in Pa");
+  EXPECT_EQ(complaint("x + n"), "3: the two sides of '+' differ: the left is in m, the right is a plain number");
+  EXPECT_EQ(complaint("x < 3"), "3: the two sides of '<' differ: the left is in m, the right is a plain number");
+  EXPECT_EQ(complaint("(1 + n)*(x - 25 MPa)"), "12: the two sides of '-' differ: the left is in m, the right is in Pa");
   EXPECT_EQ(complaint("max(x, 2)"), "6: the arguments differ: the left is in m, the right is a plain number");
 }
 
 TEST_F(AnExpression, takes_a_zero_without_a_unit_for_any_quantity) {
   parameter("nothing", "0");
   parameter("zero-length", "0 mm");
-  for (const char* is_true : {"x > 0", "0 < x", "x >= nothing", "x > zero-length", "-x <= -0", "x != 0 and n != 0", "x + 0 == 0 + x"})
+  for (const char* is_true :
+       {"x > 0", "0 < x", "x >= nothing", "x > zero-length", "-x <= -0", "x != 0 and n != 0", "x + 0 == 0 + x"})
     EXPECT_EQ(value(is_true), 1) << is_true;
   EXPECT_EQ(unit("0 - x"), "m");
   EXPECT_EQ(unit("max(0, x)"), "m");
@@ -155,8 +152,9 @@ TEST_F(AnExpression, takes_several_signs_before_an_operand) {
   EXPECT_EQ(value("--2^2"), 4);
   EXPECT_EQ(value("2*--n"), 6);
   EXPECT_EQ(value("abs(- -x)"), 0.002);
-  for (const char* is_true : {"not -x > 1 mm", "not not n == 3", "not - -n < 0 and n > 0", "not not not n < 1", "n < 1 or not +n == 2",
-                              "if(not -n > 0, not -n > 0, n > 9)", "(not -x > 1 mm) and not --x < 1 mm"})
+  for (const char* is_true :
+       {"not -x > 1 mm", "not not n == 3", "not - -n < 0 and n > 0", "not not not n < 1", "n < 1 or not +n == 2",
+        "if(not -n > 0, not -n > 0, n > 9)", "(not -x > 1 mm) and not --x < 1 mm"})
     EXPECT_EQ(value(is_true), 1) << is_true;
   for (const char* is_false : {"not -n < 0 or n < 0", "not not -x > 1 mm"}) EXPECT_EQ(value(is_false), 0) << is_false;
   EXPECT_THAT(complaint("--(n < 1)"), HasSubstr("a condition is no number"));
@@ -241,8 +239,9 @@ TEST_F(AnExpression, is_spelt_out_without_parameters_in_si) {
   EXPECT_EQ(spelt("2*M"), "2 * 1e-04 J");
   EXPECT_EQ(spelt("per*x"), "15873.015873015873 m^-2.s^-1 * x");
   const Scope nothing;
-  for (const std::string text : {"x<L/2", "L-notch", "-L^2", "debt^k^2/7", "if(x>L,odd*3,odd)^2", "per*per/odd", "k-n", "2*-debt", "atan2(notch,x)*1/3",
-                                 "sqrt(L*L+x^2)/0.1 um", "1e-7 m*n", "x>0.3 mm or n<k and x<L", "(x<L)&&not(n<debt)", "25.4 min * per * x"}) {
+  for (const std::string text : {"x<L/2", "L-notch", "-L^2", "debt^k^2/7", "if(x>L,odd*3,odd)^2", "per*per/odd", "k-n",
+                                 "2*-debt", "atan2(notch,x)*1/3", "sqrt(L*L+x^2)/0.1 um", "1e-7 m*n",
+                                 "x>0.3 mm or n<k and x<L", "(x<L)&&not(n<debt)", "25.4 min * per * x"}) {
     const auto first = compile(text);
     ASSERT_TRUE(first) << text << complaints.text();
     const auto again = Expression::compile(first->text(), place(first->text()), nothing, variables, complaints);
@@ -252,7 +251,8 @@ TEST_F(AnExpression, is_spelt_out_without_parameters_in_si) {
     for (const double x : {0.0, 1e-3 / 3, -7.7, 1e12}) {
       const std::vector<double> at{x, 3 * x - 1};
       const double wanted = first->evaluate(at), got = again->evaluate(at);
-      EXPECT_TRUE(wanted == got || (std::isnan(wanted) && std::isnan(got))) << text << " " << first->text() << " " << wanted << " " << got;
+      EXPECT_TRUE(wanted == got || (std::isnan(wanted) && std::isnan(got)))
+          << text << " " << first->text() << " " << wanted << " " << got;
     }
   }
 }

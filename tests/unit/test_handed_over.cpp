@@ -38,7 +38,9 @@ class Careless final : public Filler {
   std::function<void(Domain&)> hand_over_;
 };
 
-Real& number(Domain& domain, const char* column, Index row) { return domain.elements().column(column).view<Real>()[row]; }
+Real& number(Domain& domain, const char* column, Index row) {
+  return domain.elements().column(column).view<Real>()[row];
+}
 
 /// What is said of three elements of which one thing has been changed.
 std::string blame_for(const std::function<void(Domain&)>& change) {
@@ -69,16 +71,21 @@ TEST(HandedOver, elements_that_are_sound_are_taken) {
 }
 
 TEST(HandedOver, numbers_that_are_none_are_blamed_on_the_filler_at_its_place) {
-  EXPECT_THAT(blame_for([](Domain& d) { number(d, "mass", 1) = nan; }),
-              AllOf(StartsWith("deck.xml:7:6: error: plugin fill.careless"), HasSubstr("element 1 with mass = nan kg")));
-  EXPECT_THAT(blame_for([](Domain& d) { number(d, "mass", 2) = 0; }), HasSubstr("element 2 with mass = 0 kg: it must be finite and > 0"));
+  EXPECT_THAT(
+      blame_for([](Domain& d) { number(d, "mass", 1) = nan; }),
+      AllOf(StartsWith("deck.xml:7:6: error: plugin fill.careless"), HasSubstr("element 1 with mass = nan kg")));
+  EXPECT_THAT(blame_for([](Domain& d) { number(d, "mass", 2) = 0; }),
+              HasSubstr("element 2 with mass = 0 kg: it must be finite and > 0"));
   EXPECT_THAT(blame_for([](Domain& d) { number(d, "radius", 0) = -1; }), HasSubstr("radius = -1 m"));
-  EXPECT_THAT(blame_for([](Domain& d) { d.elements().column("position").view<Vec3>().set(1, Vec3(0, nan, 0)); }), HasSubstr("element 1 at 0 nan 0 m"));
-  EXPECT_THAT(blame_for([](Domain& d) { d.elements().column("position").view<Vec3>().set(1, Vec3(1e200, 0, 0)); }), HasSubstr("too far away"));
+  EXPECT_THAT(blame_for([](Domain& d) { d.elements().column("position").view<Vec3>().set(1, Vec3(0, nan, 0)); }),
+              HasSubstr("element 1 at 0 nan 0 m"));
+  EXPECT_THAT(blame_for([](Domain& d) { d.elements().column("position").view<Vec3>().set(1, Vec3(1e200, 0, 0)); }),
+              HasSubstr("too far away"));
 }
 
 TEST(HandedOver, sets_hold_rows_that_are_there_each_once_and_in_order) {
-  EXPECT_THAT(blame_for([](Domain& d) { d.sets()["all"].push_back(3); }), HasSubstr("put row 3 into set 'all', but there are 3 elements"));
+  EXPECT_THAT(blame_for([](Domain& d) { d.sets()["all"].push_back(3); }),
+              HasSubstr("put row 3 into set 'all', but there are 3 elements"));
   EXPECT_THAT(blame_for([](Domain& d) { d.sets()["odd"] = {-1}; }), HasSubstr("put row -1 into set 'odd'"));
   EXPECT_THAT(blame_for([](Domain& d) { d.sets()["odd"] = {1, 1}; }), HasSubstr("out of order"));
 }
@@ -102,14 +109,17 @@ TEST(HandedOver, constraints_have_a_set_an_axis_and_a_motion) {
   domain.sets()["left"] = {};
   const auto motion = [](Real) { return PrescribedMotion{}; };
   EXPECT_NO_THROW(check_constraint({.by = "", .set = "left", .axis = 5, .motion = motion}, domain, plugin));
-  EXPECT_THROW(check_constraint({.by = "", .set = "right", .axis = 0, .motion = motion}, domain, plugin), PhysicsFailure);
-  EXPECT_THROW(check_constraint({.by = "", .set = "left", .axis = 6, .motion = motion}, domain, plugin), PhysicsFailure);
+  EXPECT_THROW(check_constraint({.by = "", .set = "right", .axis = 0, .motion = motion}, domain, plugin),
+               PhysicsFailure);
+  EXPECT_THROW(check_constraint({.by = "", .set = "left", .axis = 6, .motion = motion}, domain, plugin),
+               PhysicsFailure);
   EXPECT_THROW(check_constraint({.by = "", .set = "left", .axis = 0, .motion = {}}, domain, plugin), PhysicsFailure);
 }
 
 TEST(Memory, says_what_does_not_fit) {
   EXPECT_EQ(why_no_memory(1e6, "elements", 200, 1e9), "");
-  EXPECT_EQ(why_no_memory(1e7, "elements", 200, 1e9), "1e+07 elements need at least 2 GB of memory, of which there are 1 GB: 5e+06 are possible");
+  EXPECT_EQ(why_no_memory(1e7, "elements", 200, 1e9),
+            "1e+07 elements need at least 2 GB of memory, of which there are 1 GB: 5e+06 are possible");
   EXPECT_GT(memory_at_most(), 1e6);
 }
 

@@ -109,13 +109,9 @@ TEST(lane, a_beam_in_a_pack_has_the_bits_of_a_beam_alone) {
   Random random(1);
   for (int trial = 0; trial < 50; ++trial) {
     const State a = random_state(random), b = random_state(random);
-    const auto r = round_beam(Vec3(1, 0.5, -0.2), 3, 0.3, 0.4),
-               s = round_beam(Vec3(0.8, 0.1, 0.4), 5, 0.2, 0.2);
-    const BeamRest<Two> rest{both(r.axis, s.axis),
-                             {r.length, s.length},
-                             {r.axial, s.axial},
-                             {r.bending, s.bending},
-                             {r.torsion, s.torsion}};
+    const auto r = round_beam(Vec3(1, 0.5, -0.2), 3, 0.3, 0.4), s = round_beam(Vec3(0.8, 0.1, 0.4), 5, 0.2, 0.2);
+    const BeamRest<Two> rest{
+        both(r.axis, s.axis), {r.length, s.length}, {r.axial, s.axial}, {r.bending, s.bending}, {r.torsion, s.torsion}};
     expect_lanes(beam_wrench<Two>(rest, both(a.d, b.d), both(a.q1, b.q1), both(a.q2, b.q2)),
                  beam_wrench(r, a.d, a.q1, a.q2), beam_wrench(s, b.d, b.q1, b.q2));
     const auto pack =
@@ -134,11 +130,12 @@ auto faces_of(const ContactArms<T>& arms, const Vec<T>& d, const Quaternion<T>& 
 }
 
 template <bool carried, class T, class Modes>
-auto contact_of(const Modes& modes, const ContactArms<T>& arms, const Vec<T>& d, const Quaternion<T>& q1, const Quaternion<T>& q2,
-                const CohesiveHistory<Modes, T>& history) {
+auto contact_of(const Modes& modes, const ContactArms<T>& arms, const Vec<T>& d, const Quaternion<T>& q1,
+                const Quaternion<T>& q2, const CohesiveHistory<Modes, T>& history) {
   const auto at = faces_of<carried, T>(arms, d, q1, q2);
   const auto now = cohesive_state<Modes>(modes, at, T(2), history);
-  return std::tuple(cohesive_wrench(modes, at, T(2), now.share), now.after, cohesive_lost<Modes>(modes, at, T(2), history, now.after));
+  return std::tuple(cohesive_wrench(modes, at, T(2), now.share), now.after,
+                    cohesive_lost<Modes>(modes, at, T(2), history, now.after));
 }
 
 template <bool carried, class Modes>
@@ -149,13 +146,15 @@ void a_contact_has_the_bits_of_one_alone(const Modes& modes, int seed) {
   int failed = 0, held = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const State a = random_state(random), b = random_state(random);
-    CohesiveHistory<Modes, Real> ka{{random.uniform(0, 0.5), random.uniform(0, 0.5)}, Real(trial % 7 == 0)}, kb{{random.uniform(0, 0.1), 0}, 0};
+    CohesiveHistory<Modes, Real> ka{{random.uniform(0, 0.5), random.uniform(0, 0.5)}, Real(trial % 7 == 0)},
+        kb{{random.uniform(0, 0.1), 0}, 0};
     const auto [one, one_after, one_lost] = contact_of<carried, Real>(modes, arms, a.d, a.q1, a.q2, ka);
     const auto [other, other_after, other_lost] = contact_of<carried, Real>(modes, arms, b.d, b.q1, b.q2, kb);
     const auto history = std::bit_cast<std::array<Real, 3>>(ka), second = std::bit_cast<std::array<Real, 3>>(kb);
     const std::array<Two, 3> lanes{Two(history[0], second[0]), Two(history[1], second[1]), Two(history[2], second[2])};
-    const auto [pack, after, lost] = contact_of<carried, Two>(modes, both_arms, both(a.d, b.d), both(a.q1, b.q1), both(a.q2, b.q2),
-                                                              std::bit_cast<CohesiveHistory<Modes, Two>>(lanes));
+    const auto [pack, after, lost] =
+        contact_of<carried, Two>(modes, both_arms, both(a.d, b.d), both(a.q1, b.q1), both(a.q2, b.q2),
+                                 std::bit_cast<CohesiveHistory<Modes, Two>>(lanes));
     expect_lanes(pack, one, other);
     EXPECT_EQ(lost.a, one_lost);
     EXPECT_EQ(lost.b, other_lost);
@@ -203,7 +202,10 @@ TEST(lane, a_beam_takes_some_two_hundred_operations_one_division_and_one_root) {
   };
   const Vec<Counted> axis(1., 0., 0.), apart(1.01, 0.02, 0.03);
   const Quaternion<Counted> turn{1., Vec<Counted>(0.01, 0.02, 0.03)};
-  EXPECT_EQ(count([&] { beam_wrench<Counted>(BeamRest<Counted>{axis, 1., 1., 1., 1.}, apart, turn, turn); }), (std::array{190, 1, 1}));
+  EXPECT_EQ(count([&] {
+              beam_wrench<Counted>(BeamRest<Counted>{axis, 1., 1., 1., 1.}, apart, turn, turn);
+            }),
+            (std::array{190, 1, 1}));
   EXPECT_EQ(count([&] { spring_force<Counted>({1., 1.}, apart); }), (std::array{10, 1, 1}));
 }
 

@@ -19,7 +19,8 @@ TEST(Log, the_first_line_on_a_subject_is_said_at_once_and_the_newest_at_the_end)
   log.say_once("top", "4 of top");
   EXPECT_THAT(said, ElementsAre("1 of top", "1 of left"));
   log.conclude();
-  EXPECT_THAT(said, ElementsAre("1 of top", "1 of left", "in the end 4 of top (2 such lines before this one were left out)"));
+  EXPECT_THAT(said,
+              ElementsAre("1 of top", "1 of left", "in the end 4 of top (2 such lines before this one were left out)"));
 }
 
 TEST(Log, a_second_line_is_told_at_the_end_and_a_conclusion_comes_once) {
@@ -34,7 +35,8 @@ TEST(Log, a_second_line_is_told_at_the_end_and_a_conclusion_comes_once) {
 
 TEST(Log, what_is_said_and_what_is_warned_of_go_their_own_ways_and_nobody_has_to_listen) {
   std::vector<std::string> said, warned;
-  const Log log([&](const std::string& line) { said.push_back(line); }, [&](const std::string& line) { warned.push_back(line); });
+  const Log log([&](const std::string& line) { said.push_back(line); },
+                [&](const std::string& line) { warned.push_back(line); });
   log.say("a");
   log.warn("b");
   EXPECT_THAT(said, ElementsAre("a"));

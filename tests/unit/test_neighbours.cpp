@@ -95,8 +95,7 @@ TEST(Neighbours, finds_elements_that_just_touch_on_a_lattice) {
 TEST(Neighbours, leaves_out_pairs_of_two_obstacles) {
   const Cloud c = cloud(800, 5, 0.1, 1, 3);
   for (const std::size_t moving : {0u, 300u, 800u})
-    EXPECT_EQ(find_pairs_around(c.position, c.radius, moving, 0.1, 0.05),
-              all_against_all(c, 0.1, 0.05, moving));
+    EXPECT_EQ(find_pairs_around(c.position, c.radius, moving, 0.1, 0.05), all_against_all(c, 0.1, 0.05, moving));
 }
 
 TEST(Neighbours, is_not_slowed_down_by_one_element_far_away) {
@@ -131,8 +130,7 @@ TEST(Neighbours, gives_the_same_list_for_any_number_of_threads) {
 
 TEST(Neighbours, names_the_element_that_is_not_finite) {
   const Real nan = std::numeric_limits<Real>::quiet_NaN(), infinity = std::numeric_limits<Real>::infinity();
-  EXPECT_THAT(message_of({{{0, 0, 0}, {0, nan, 0}}, {1, 1}}),
-              HasSubstr("position of element 1 is not finite"));
+  EXPECT_THAT(message_of({{{0, 0, 0}, {0, nan, 0}}, {1, 1}}), HasSubstr("position of element 1 is not finite"));
   EXPECT_THAT(message_of({{{infinity, 0, 0}, {0, 0, 0}}, {1, 1}}), HasSubstr("position of element 0"));
   EXPECT_THAT(message_of({{{0, 0, 0}, {0, 0, 0}}, {1, nan}}), HasSubstr("radius of element 1"));
   EXPECT_THAT(message_of({{{0, 0, 0}, {0, 0, 0}}, {-1, 1}}), HasSubstr("radius of element 0 is negative"));

@@ -50,8 +50,7 @@ const Packing& example() {
   return packing;
 }
 
-Real deepest_overlap(const Packing& p, const std::vector<Vec3>& x, const std::vector<Real>& r,
-                     std::size_t moving) {
+Real deepest_overlap(const Packing& p, const std::vector<Vec3>& x, const std::vector<Real>& r, std::size_t moving) {
   Real deepest = 0;
   for (const Pair& pair : find_pairs_around(x, r, moving)) {
     const auto i = std::size_t(pair.i), j = std::size_t(pair.j);
@@ -143,8 +142,8 @@ TEST(Packing, leaves_obstacles_alone_and_does_not_touch_them_deeper_than_allowed
     all.insert(all.end(), obstacles.begin(), obstacles.end());
     return all;
   };
-  EXPECT_EQ(deepest_overlap(p, with_obstacles(p.position, p.around.position),
-                            with_obstacles(p.radius, p.around.radius), p.position.size()),
+  EXPECT_EQ(deepest_overlap(p, with_obstacles(p.position, p.around.position), with_obstacles(p.radius, p.around.radius),
+                            p.position.size()),
             0);
   forced_filling(p);
   relaxation(p);
@@ -191,8 +190,7 @@ TEST(Packing, keeps_the_ratios_of_all_radii_if_told_to) {
   const auto before = p.radius;
   relaxation(p, {.overlap = 1e-7, .radius_change = 0});
   EXPECT_LE(deepest_overlap(p), 1e-7);
-  for (std::size_t i = 1; i < before.size(); ++i)
-    ASSERT_NEAR(p.radius[i] / before[i], p.radius[0] / before[0], 1e-12);
+  for (std::size_t i = 1; i < before.size(); ++i) ASSERT_NEAR(p.radius[i] / before[i], p.radius[0] / before[0], 1e-12);
   EXPECT_THAT(p.warnings, ::testing::Contains(HasSubstr("lowered the coordination number")));
 }
 
@@ -215,19 +213,22 @@ TEST_P(PackingOfSpread, is_packed_without_overlap_and_with_the_radii_of_its_law)
   EXPECT_LE(deepest_overlap(p), 1e-7);
   const PackingReport r = report(p);
   EXPECT_LT(r.kolmogorov, 1.36 / std::sqrt(500.0));
-  EXPECT_GT(r.near.without_rattlers, asked.spread > 0 ? 5.5 : 4.5) << "radii that are all alike cannot make room for contacts";
+  EXPECT_GT(r.near.without_rattlers, asked.spread > 0 ? 5.5 : 4.5)
+      << "radii that are all alike cannot make room for contacts";
 }
 
 constexpr auto uniform = RadiusLaw::uniform, gaussian = RadiusLaw::truncated_gaussian;
 INSTANTIATE_TEST_SUITE_P(Spreads, PackingOfSpread,
-                         ::testing::Values(Spread{uniform, 0, true}, Spread{uniform, .35, true}, Spread{uniform, .4, false}, Spread{uniform, .45, true},
-                                           Spread{uniform, .5, true}, Spread{uniform, .5, false}, Spread{uniform, .7, true}, Spread{uniform, .9, false},
-                                           Spread{gaussian, .35, true}, Spread{gaussian, .45, false}, Spread{gaussian, .5, true},
-                                           Spread{gaussian, .9, true}),
+                         ::testing::Values(Spread{uniform, 0, true}, Spread{uniform, .35, true},
+                                           Spread{uniform, .4, false}, Spread{uniform, .45, true},
+                                           Spread{uniform, .5, true}, Spread{uniform, .5, false},
+                                           Spread{uniform, .7, true}, Spread{uniform, .9, false},
+                                           Spread{gaussian, .35, true}, Spread{gaussian, .45, false},
+                                           Spread{gaussian, .5, true}, Spread{gaussian, .9, true}),
                          [](const auto& each) {
                            const Spread& s = each.param;
-                           return std::string(s.law == uniform ? "uniform_" : "gaussian_") + std::to_string(std::lround(100 * s.spread)) +
-                                  (s.box ? "_box" : "_cylinder");
+                           return std::string(s.law == uniform ? "uniform_" : "gaussian_") +
+                                  std::to_string(std::lround(100 * s.spread)) + (s.box ? "_box" : "_cylinder");
                          });
 
 TEST(Packing, lets_a_large_element_grow_in_among_small_ones) {
@@ -251,7 +252,8 @@ TEST(Packing, counts_contacts_in_the_bulk_if_told_to) {
   EXPECT_LE(r.touching.bulk, 6.64);
   EXPECT_LT(r.touching.all, 6);
   Packing few = free_filling(cube(30));
-  EXPECT_THAT(message_of([&] { forced_filling(few, {.coordination = 6.2, .tolerance = 0.3, .bulk = true}); }), HasSubstr("no element is in the bulk"));
+  EXPECT_THAT(message_of([&] { forced_filling(few, {.coordination = 6.2, .tolerance = 0.3, .bulk = true}); }),
+              HasSubstr("no element is in the bulk"));
 }
 
 // --- free filling alone
@@ -354,10 +356,7 @@ TEST(Packing, refuses_requests_that_make_no_sense) {
                 q.region = Box{{0, 0, 0}, {1, 0, 1}};
               }),
               HasSubstr("box to be filled is empty"));
-  EXPECT_THAT(message([](Request& q) {
-                q.region = Cylinder{{0, 0, 0}, {0, 0, 0}, 1};
-              }),
-              HasSubstr("cylinder"));
+  EXPECT_THAT(message([](Request& q) { q.region = Cylinder{{0, 0, 0}, {0, 0, 0}, 1}; }), HasSubstr("cylinder"));
   EXPECT_THAT(message([](Request& q) { q.tries = 0; }), HasSubstr("number of tries"));
   EXPECT_THAT(message([](Request& q) { q.around = {{{0, std::nan(""), 0}}, {1}}; }), HasSubstr("obstacle 0"));
   const auto with_radius = [&](Real R) {
@@ -378,7 +377,8 @@ TEST(Packing, refuses_at_once_what_no_machine_can_hold) {
     return message_of([&] { free_filling(request); });
   };
   const auto box = [&](const Vec3& extent) { return message([&](Request& q) { q.region = Box{{0, 0, 0}, extent}; }); };
-  EXPECT_THAT(box({5, 5, 1e-5}), AllOf(HasSubstr("too thin for so few elements: 60 of them"), HasSubstr("ask for about")));
+  EXPECT_THAT(box({5, 5, 1e-5}),
+              AllOf(HasSubstr("too thin for so few elements: 60 of them"), HasSubstr("ask for about")));
   EXPECT_THAT(box({1e9, 1, 1}), HasSubstr("too thin"));
   EXPECT_THAT(box({1e-60, 1, 1}), HasSubstr("between 1e-50 and 1e50"));
   EXPECT_THAT(box({1e120, 1e120, 1e120}), HasSubstr("between 1e-50 and 1e50"));
@@ -502,8 +502,7 @@ Packing face_centred_cubic(int cells) {
   const Vec3 edge = Vec3::Constant(a * cells);
   const Vec3 shift = Vec3::Constant(-a / 4);  // the lattice in the middle of its box
   std::vector<Real> radius(position.size(), 1);
-  return packing_of(Box{shift, edge + shift}, {RadiusLaw::uniform, 0, 0}, std::move(position),
-                    std::move(radius));
+  return packing_of(Box{shift, edge + shift}, {RadiusLaw::uniform, 0, 0}, std::move(position), std::move(radius));
 }
 
 TEST(PackingReport, knows_a_face_centred_cubic_crystal) {
@@ -520,8 +519,7 @@ TEST(PackingReport, knows_a_face_centred_cubic_crystal) {
 
 TEST(PackingReport, counts_without_rattlers_and_without_those_that_rattle_when_these_are_gone) {
   // A chain of three spheres in a wide box holds nobody: each link is loose once its end is.
-  const Packing chain =
-      packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {1, 1, 1});
+  const Packing chain = packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2, 0, 0}, {4, 0, 0}}, {1, 1, 1});
   const PackingReport r = report(chain);
   EXPECT_NEAR(r.touching.all, 4.0 / 3, 1e-12);
   EXPECT_EQ(r.touching.without_rattlers, 0);
@@ -530,8 +528,7 @@ TEST(PackingReport, counts_without_rattlers_and_without_those_that_rattle_when_t
 }
 
 TEST(PackingReport, tells_touching_contacts_from_near_ones_and_measures_overlap) {
-  const Packing p =
-      packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2.001, 0, 0}, {0, 1.9, 0}}, {1, 1, 1});
+  const Packing p = packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}, {2.001, 0, 0}, {0, 1.9, 0}}, {1, 1, 1});
   const PackingReport r = report(p, 1e-3);
   EXPECT_NEAR(r.touching.all, 2.0 / 3, 1e-12);
   EXPECT_NEAR(r.near.all, 4.0 / 3, 1e-12);

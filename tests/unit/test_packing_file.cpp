@@ -23,7 +23,9 @@ std::filesystem::path file_with(const std::string& text) {
   return file;
 }
 
-StoredPacking packing_in(const std::string& text, const TextForm& form = {}) { return read_packing(file_with(text), form); }
+StoredPacking packing_in(const std::string& text, const TextForm& form = {}) {
+  return read_packing(file_with(text), form);
+}
 
 std::string refusal_of(const std::string& text, const TextForm& form = {}) {
   try {
@@ -65,13 +67,17 @@ TEST(PackingFile, columns_state_their_units) {
 }
 
 TEST(PackingFile, a_unit_that_is_not_that_of_the_deck_is_refused) {
-  EXPECT_THAT(refusal_of("x [m],y [m],z [m],r [m]\n0,0,0,1\n", {.unit = "mm"}), HasSubstr(":1:1: error: column 'x' is in m, but the deck says unit=\"mm\""));
-  EXPECT_THAT(refusal_of("x [mm],y [mm],z [mm],r\n0,0,0,1\n"), HasSubstr(":1:22: error: column 'r' has no unit, others have one"));
-  EXPECT_THAT(refusal_of("x [mm],y [mm],z [mm],r [kg]\n0,0,0,1\n"), HasSubstr(":1:22: error: column 'r' wants a unit of length"));
+  EXPECT_THAT(refusal_of("x [m],y [m],z [m],r [m]\n0,0,0,1\n", {.unit = "mm"}),
+              HasSubstr(":1:1: error: column 'x' is in m, but the deck says unit=\"mm\""));
+  EXPECT_THAT(refusal_of("x [mm],y [mm],z [mm],r\n0,0,0,1\n"),
+              HasSubstr(":1:22: error: column 'r' has no unit, others have one"));
+  EXPECT_THAT(refusal_of("x [mm],y [mm],z [mm],r [kg]\n0,0,0,1\n"),
+              HasSubstr(":1:22: error: column 'r' wants a unit of length"));
 }
 
 TEST(PackingFile, columns_that_make_no_element_are_refused) {
-  EXPECT_THAT(refusal_of("x,y,z,size\n0,0,0,1\n"), HasSubstr(":1:1: error: the columns lack radius (r) or diameter (d)"));
+  EXPECT_THAT(refusal_of("x,y,z,size\n0,0,0,1\n"),
+              HasSubstr(":1:1: error: the columns lack radius (r) or diameter (d)"));
   EXPECT_THAT(refusal_of("x,y,r\n0,0,1\n"), HasSubstr("the columns lack z"));
   EXPECT_THAT(refusal_of("x,y,z,r,d\n0,0,0,1,2\n"), HasSubstr("name radius (r) or diameter (d) more than once"));
 }
@@ -84,10 +90,13 @@ TEST(PackingFile, a_column_of_something_else_is_passed_over_with_a_word) {
 
 TEST(PackingFile, the_deck_may_say_what_the_columns_hold) {
   expect_two_elements("1,0,0,0\n.75,2,.5,-1\n", {.unit = "mm", .columns = {"r", "x", "y", "z"}});
-  expect_two_elements("a,b,c,e,f\n9,0,0,0,1\n9,2,.5,-1,.75\n", {.unit = "mm", .columns = {"-", "x", "y", "z", "radius"}});
+  expect_two_elements("a,b,c,e,f\n9,0,0,0,1\n9,2,.5,-1,.75\n",
+                      {.unit = "mm", .columns = {"-", "x", "y", "z", "radius"}});
   expect_two_elements("# x y z r, or so\n2,0,0,0\n1.5,2,.5,-1\n", {.columns = {"d_mm", "x_mm", "y_mm", "z_mm"}});
-  EXPECT_THAT(refusal_of("x,y,z,r\n0,0,0,1\n", {.columns = {"r", "x", "y", "z"}}), HasSubstr(":1:1: error: this column is called \"x\" here, and \"r\" by 'columns'"));
-  EXPECT_THAT(refusal_of("0,0,0,1\n", {.columns = {"x", "y", "z", "r", "id"}}), HasSubstr(":1:1: error: a line holds 5 columns, x y z r id, here are 4"));
+  EXPECT_THAT(refusal_of("x,y,z,r\n0,0,0,1\n", {.columns = {"r", "x", "y", "z"}}),
+              HasSubstr(":1:1: error: this column is called \"x\" here, and \"r\" by 'columns'"));
+  EXPECT_THAT(refusal_of("0,0,0,1\n", {.columns = {"x", "y", "z", "r", "id"}}),
+              HasSubstr(":1:1: error: a line holds 5 columns, x y z r id, here are 4"));
   EXPECT_THAT(why_no_columns({"x", "y", "z"}), HasSubstr("lack radius"));
   EXPECT_THAT(why_no_columns({"x", "y", "z", "mass"}), HasSubstr("no column is called \"mass\""));
   EXPECT_EQ(why_no_columns({"-", "x", "y", "z_um", "D"}), "");
@@ -102,29 +111,40 @@ TEST(PackingFile, a_remark_names_the_columns_where_it_can) {
 
 TEST(PackingFile, names_stand_in_front_of_all_elements_and_only_there) {
   EXPECT_THAT(refusal_of("0 0 0 1\nx y z r\n"), HasSubstr(":2:1: error"));
-  EXPECT_THAT(refusal_of("x y z r\nin mm and mm\n0 0 0 1\n"), HasSubstr(":2:1: error: a line holds 4 numbers, x y z r (as line 1 names them), got \"in\""));
+  EXPECT_THAT(refusal_of("x y z r\nin mm and mm\n0 0 0 1\n"),
+              HasSubstr(":2:1: error: a line holds 4 numbers, x y z r (as line 1 names them), got \"in\""));
 }
 
 TEST(PackingFile, a_first_element_with_a_slip_is_not_taken_for_names) {
-  EXPECT_THAT(refusal_of("O,0,0,1\n2,0,0,1\n"), HasSubstr(":1:1: error: a line holds 4 numbers, x y z radius, got \"O\""));
+  EXPECT_THAT(refusal_of("O,0,0,1\n2,0,0,1\n"),
+              HasSubstr(":1:1: error: a line holds 4 numbers, x y z radius, got \"O\""));
 }
 
 TEST(PackingFile, a_comma_in_a_number_is_named) {
-  EXPECT_THAT(refusal_of("0,5;0;0;1\n"), HasSubstr(":1:1: error: a line holds 4 numbers, x y z radius, got \"0,5\"; a decimal has a point: 0.5"));
+  EXPECT_THAT(refusal_of("0,5;0;0;1\n"),
+              HasSubstr(":1:1: error: a line holds 4 numbers, x y z radius, got \"0,5\"; a decimal has a point: 0.5"));
   EXPECT_THAT(refusal_of("0,5;0,5;0,5;1,0\n"), HasSubstr("a decimal has a point: 0.5"));
   EXPECT_THAT(refusal_of("0,5 0,5 0,5 1,0\n"), HasSubstr("here are 5; a decimal has a point"));
 }
 
 TEST(PackingFile, the_mark_that_spreadsheets_put_first_costs_no_element) {
-  EXPECT_EQ(packing_in("\xEF\xBB\xBF" "0,0,0,1\r\n2,0,0,1\r\n").position.size(), 2u);
-  EXPECT_EQ(packing_in("\xEF\xBB\xBF" "x,y,z,r\r\n0,0,0,1\r\n2,0,0,1\r\n").position.size(), 2u);
+  EXPECT_EQ(packing_in("\xEF\xBB\xBF"
+                       "0,0,0,1\r\n2,0,0,1\r\n")
+                .position.size(),
+            2u);
+  EXPECT_EQ(packing_in("\xEF\xBB\xBF"
+                       "x,y,z,r\r\n0,0,0,1\r\n2,0,0,1\r\n")
+                .position.size(),
+            2u);
 }
 
 TEST(PackingFile, a_line_that_is_no_element_is_named) {
-  EXPECT_THAT(refusal_of("0 0 0 1\n1 2 3\n"), HasSubstr(":2:1: error: a line holds 4 numbers, x y z radius, here are 3"));
+  EXPECT_THAT(refusal_of("0 0 0 1\n1 2 3\n"),
+              HasSubstr(":2:1: error: a line holds 4 numbers, x y z radius, here are 3"));
   EXPECT_THAT(refusal_of("0 0 0 1\n1 2 3 r\n"), HasSubstr(":2:7: error"));
   EXPECT_THAT(refusal_of("0 0 0 1\n1 2 nan 1\n"), HasSubstr(":2:5: error"));
-  EXPECT_THAT(refusal_of("3\nLattice=\"1 0 0\"\nA 0 0 0 1\n"), HasSubstr(":1:1: error: a line holds 4 numbers, x y z radius, here are 1"));
+  EXPECT_THAT(refusal_of("3\nLattice=\"1 0 0\"\nA 0 0 0 1\n"),
+              HasSubstr(":1:1: error: a line holds 4 numbers, x y z radius, here are 1"));
 }
 
 TEST(PackingFile, elements_without_extent_and_empty_files_are_refused) {
@@ -134,7 +154,8 @@ TEST(PackingFile, elements_without_extent_and_empty_files_are_refused) {
 }
 
 TEST(PackingFile, a_line_that_stands_there_twice_is_warned_of) {
-  EXPECT_THAT(packing_in("0 0 0 1\n2 0 0 1\n0 0 0 1\n").warnings, ElementsAre(HasSubstr(":3: the element of line 1 has the same place")));
+  EXPECT_THAT(packing_in("0 0 0 1\n2 0 0 1\n0 0 0 1\n").warnings,
+              ElementsAre(HasSubstr(":3: the element of line 1 has the same place")));
   EXPECT_TRUE(packing_in("0 0 0 1\n2 0 0 1\n").warnings.empty());
 }
 

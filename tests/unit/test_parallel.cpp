@@ -18,7 +18,8 @@ TEST(parallel, each_shared_does_each_once_whether_few_or_many) {
     use_threads(threads);
     for (const Index count : {0, 1, 4, 5, 31, 1000, 100000}) {
       std::vector<int> done(static_cast<std::size_t>(count), 0);
-      each_shared(count, [&](Index k) { ++done[static_cast<std::size_t>(k)]; }, 5);
+      each_shared(
+          count, [&](Index k) { ++done[static_cast<std::size_t>(k)]; }, 5);
       EXPECT_EQ(done, std::vector<int>(static_cast<std::size_t>(count), 1)) << threads << " threads";
     }
   }
@@ -27,21 +28,27 @@ TEST(parallel, each_shared_does_each_once_whether_few_or_many) {
 TEST(parallel, few_are_left_to_one_thread) {
   use_threads(2);
   std::vector<int> by(8, -1);
-  each_shared(4, [&](Index k) { by[static_cast<std::size_t>(k)] = in_shared_loop(); }, 5);
+  each_shared(
+      4, [&](Index k) { by[static_cast<std::size_t>(k)] = in_shared_loop(); }, 5);
   EXPECT_EQ(by, (std::vector<int>{0, 0, 0, 0, -1, -1, -1, -1}));
-  each_shared(8, [&](Index k) { by[static_cast<std::size_t>(k)] = in_shared_loop(); }, 5);
+  each_shared(
+      8, [&](Index k) { by[static_cast<std::size_t>(k)] = in_shared_loop(); }, 5);
   EXPECT_EQ(by, std::vector<int>(8, 1));
   EXPECT_FALSE(in_shared_loop());
 }
 
-// Loops so short that helpers come too late, and so long that they fall asleep in between: each sees what the one before it has left.
+// Loops so short that helpers come too late, and so long that they fall asleep in between: each sees what the one
+// before it has left.
 TEST(parallel, one_loop_is_done_before_the_next_begins) {
   for (const int threads : {2, 5}) {
     use_threads(threads);
     std::vector<std::int64_t> value(64, 0), before(64, 0);
     for (std::int64_t round = 1; round <= 20000; ++round) {
-      each_shared(Index{64}, [&](Index k) { value[static_cast<std::size_t>(k)] = before[static_cast<std::size_t>((k + 17) % 64)] + 1; });
-      each_shared(Index{64}, [&](Index k) { before[static_cast<std::size_t>(k)] = value[static_cast<std::size_t>(k)]; });
+      each_shared(Index{64}, [&](Index k) {
+        value[static_cast<std::size_t>(k)] = before[static_cast<std::size_t>((k + 17) % 64)] + 1;
+      });
+      each_shared(Index{64},
+                  [&](Index k) { before[static_cast<std::size_t>(k)] = value[static_cast<std::size_t>(k)]; });
       if (round % 1000 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     EXPECT_EQ(before, std::vector<std::int64_t>(64, 20000));

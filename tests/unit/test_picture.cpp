@@ -25,9 +25,8 @@ struct Rgba {
 };
 
 Rgba at(const Image& image, int x, int y) {
-  const std::uint8_t* p =
-      image.rgba.data() +
-      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+  const std::uint8_t* p = image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                                   static_cast<std::size_t>(x));
   return {p[0], p[1], p[2], p[3]};
 }
 
@@ -103,8 +102,7 @@ Image packing(int count) {
   Canvas canvas(square(10), 600);
   Random random(7);
   for (int i = 0; i < count; ++i)
-    canvas.sphere(Vec3(random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)), 0.12,
-                  color(0x7FA8CC));
+    canvas.sphere(Vec3(random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-5, 5)), 0.12, color(0x7FA8CC));
   canvas.darken_hollows(0.5);
   return canvas.image();
 }

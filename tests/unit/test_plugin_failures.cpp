@@ -1,4 +1,5 @@
-// Whatever function of a plugin throws whatever: it is told which plugin of which line, and the run ends as one that failed.
+// Whatever function of a plugin throws whatever: it is told which plugin of which line, and the run ends as one that
+// failed.
 
 #include <gtest/gtest.h>
 
@@ -98,7 +99,10 @@ class WiredLoad final : public Wired<Load> {
     wire("constraints");
     Constraint c;
     c.by = id(), c.set = *set, c.driven = true;
-    c.motion = [this](Real) { return wire("motion"), PrescribedMotion{astray == 0 ? missing : 0, astray == 1 ? missing : 0, astray == 2 ? missing : 0}; };
+    c.motion = [this](Real) {
+      return wire("motion"),
+             PrescribedMotion{astray == 0 ? missing : 0, astray == 1 ? missing : 0, astray == 2 ? missing : 0};
+    };
     return {c};
   }
   void push(Domain&, const Moment&) override { wire("push"); }
@@ -162,8 +166,11 @@ class WiredWatch final : public Wired<Watcher> {
 
 Catalogue wired() {
   Catalogue catalogue;
-  catalogue.add({"wired.so", "1", {entry<WiredFill>("wired"), entry<WiredLaw>("wired"), entry<WiredLoad>("wired"), entry<WiredMove>("wired"),
-                                   entry<WiredFail>("wired"), entry<WiredDerive>("wired"), entry<WiredWatch>("wired")}});
+  catalogue.add(
+      {"wired.so",
+       "1",
+       {entry<WiredFill>("wired"), entry<WiredLaw>("wired"), entry<WiredLoad>("wired"), entry<WiredMove>("wired"),
+        entry<WiredFail>("wired"), entry<WiredDerive>("wired"), entry<WiredWatch>("wired")}});
   return catalogue;
 }
 
@@ -190,14 +197,61 @@ void run_deck(const Scratch& scratch) {
 }
 
 TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
-  for (const std::string function :
-       {"fill constructor", "fill check", "fill choose", "fill energy", "fill fill", "fill conclude", "bond constructor", "bond check", "bond choose",
-        "bond accepts", "bond connect", "bond remark", "bond caution", "bond act", "bond withdraw", "bond events", "bond stored_energy of one", "bond stored_energy",
-        "bond dissipated_energy", "bond energy", "load constructor", "load check", "load choose", "load clear", "load start", "load constraints",
-        "load motion", "load push", "load account", "load energy", "move constructor", "move check", "move choose", "move choose_rotations",
-        "move check_stage", "move prepare", "move step", "move complete", "move energy", "fail constructor", "fail check", "fail choose", "fail judge",
-        "fail mode", "fail energy", "derive constructor", "derive derive", "derive energy", "watch constructor", "watch check", "watch choose",
-        "watch wants", "watch check_stages", "watch look", "watch energy"})
+  for (const std::string function : {"fill constructor",
+                                     "fill check",
+                                     "fill choose",
+                                     "fill energy",
+                                     "fill fill",
+                                     "fill conclude",
+                                     "bond constructor",
+                                     "bond check",
+                                     "bond choose",
+                                     "bond accepts",
+                                     "bond connect",
+                                     "bond remark",
+                                     "bond caution",
+                                     "bond act",
+                                     "bond withdraw",
+                                     "bond events",
+                                     "bond stored_energy of one",
+                                     "bond stored_energy",
+                                     "bond dissipated_energy",
+                                     "bond energy",
+                                     "load constructor",
+                                     "load check",
+                                     "load choose",
+                                     "load clear",
+                                     "load start",
+                                     "load constraints",
+                                     "load motion",
+                                     "load push",
+                                     "load account",
+                                     "load energy",
+                                     "move constructor",
+                                     "move check",
+                                     "move choose",
+                                     "move choose_rotations",
+                                     "move check_stage",
+                                     "move prepare",
+                                     "move step",
+                                     "move complete",
+                                     "move energy",
+                                     "fail constructor",
+                                     "fail check",
+                                     "fail choose",
+                                     "fail judge",
+                                     "fail mode",
+                                     "fail energy",
+                                     "derive constructor",
+                                     "derive derive",
+                                     "derive energy",
+                                     "watch constructor",
+                                     "watch check",
+                                     "watch choose",
+                                     "watch wants",
+                                     "watch check_stages",
+                                     "watch look",
+                                     "watch energy"})
     for (const bool bare : {false, true}) {
       const Scratch scratch;
       trap = function, throws_42 = bare;
@@ -212,11 +266,14 @@ TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
       }
       const std::string plugin = function.substr(0, function.find(' ')) + ".wired";
       EXPECT_NE(said.find("plugin " + plugin), std::string::npos) << function << ": " << said;
-      EXPECT_NE(said.find(bare ? "no std::exception" : "the wire was touched"), std::string::npos) << function << ": " << said;
+      EXPECT_NE(said.find(bare ? "no std::exception" : "the wire was touched"), std::string::npos)
+          << function << ": " << said;
       EXPECT_NE(said.find("deck.xml"), std::string::npos) << function << ": " << said;
       const std::string summary = testing::text_of(scratch / "out/summary.json");
-      if (function == "fail mode" || function == "move step") EXPECT_NE(summary, "") << function << " leaves no summary";
-      if (!summary.empty()) EXPECT_NE(summary.find("\"status\": \"failed\""), std::string::npos) << function << ": " << summary;
+      if (function == "fail mode" || function == "move step")
+        EXPECT_NE(summary, "") << function << " leaves no summary";
+      if (!summary.empty())
+        EXPECT_NE(summary.find("\"status\": \"failed\""), std::string::npos) << function << ": " << summary;
     }
   trap.clear();
   const Scratch scratch;
@@ -248,7 +305,8 @@ TEST(PluginFailures, a_curve_whose_name_leads_elsewhere_is_the_failure_of_its_wa
 TEST(PluginFailures, in_words_that_are_no_text_do_not_hide_the_failure) {
   const Scratch scratch;
   trap = "move step", throws_42 = false, words = "a \xFF wire";
-  EXPECT_NE(testing::message_of<PhysicsFailure>([&] { run_deck(scratch); }).find("plugin move.wired"), std::string::npos);
+  EXPECT_NE(testing::message_of<PhysicsFailure>([&] { run_deck(scratch); }).find("plugin move.wired"),
+            std::string::npos);
   EXPECT_NE(testing::text_of(scratch / "out/summary.json").find("a \uFFFD wire"), std::string::npos);
   trap.clear(), words.clear();
 }
@@ -257,7 +315,9 @@ TEST(PluginFailures, of_a_filler_whose_report_is_no_json_are_its_own) {
   for (const std::string wrong : {"{\"x\": nan}", "{\"x\": \"\xFF\"}", "[1]", ""}) {
     const Scratch scratch;
     report = wrong.empty() ? std::string(5000, '[') : wrong;
-    EXPECT_NE(testing::message_of<PhysicsFailure>([&] { run_deck(scratch); }).find("plugin fill.wired failed"), std::string::npos) << wrong;
+    EXPECT_NE(testing::message_of<PhysicsFailure>([&] { run_deck(scratch); }).find("plugin fill.wired failed"),
+              std::string::npos)
+        << wrong;
   }
   report = "{\"x\": 1}";
   const Scratch scratch;
@@ -276,21 +336,27 @@ TEST(PluginLibrary, that_is_cut_off_or_damaged_is_refused_before_it_is_opened) {
   for (std::size_t piece = 0; piece < 200; ++piece) {
     testing::write_text(library, whole.substr(0, piece * whole.size() / 200));
     EXPECT_NE(why_no_shared_library(library), "") << piece;
-    EXPECT_EQ(testing::message_of<LibraryFailure>([&] { open_library(library); }).find("cannot open plugin library"), 0u) << piece;
+    EXPECT_EQ(testing::message_of<LibraryFailure>([&] { open_library(library); }).find("cannot open plugin library"),
+              0u)
+        << piece;
   }
   testing::write_text(library, whole.substr(0, whole.size() - 1));
   EXPECT_NE(why_no_shared_library(library).find("cut off"), std::string::npos);
-  for (const auto& [at, byte] : std::vector<std::pair<std::size_t, char>>{{4, 1}, {5, 2}, {16, 2}, {18, 40}, {36, 77}, {54, 1}, {56, 0}}) {
+  for (const auto& [at, byte] :
+       std::vector<std::pair<std::size_t, char>>{{4, 1}, {5, 2}, {16, 2}, {18, 40}, {36, 77}, {54, 1}, {56, 0}}) {
     std::string odd = whole;
     odd[at] = byte;
     testing::write_text(library, odd);
     EXPECT_NE(why_no_shared_library(library), "") << at;
   }
-  for (const std::size_t from : {std::size_t{65536}, whole.size() / 2}) {  // a write that was lost: its tables are whole
+  for (const std::size_t from :
+       {std::size_t{65536}, whole.size() / 2}) {  // a write that was lost: its tables are whole
     std::string holed = whole;
     std::fill(holed.begin() + static_cast<std::ptrdiff_t>(from), holed.end() - 65536, '\0');
     testing::write_text(library, holed);
-    EXPECT_EQ(testing::message_of<LibraryFailure>([&] { open_library(library); }).find("cannot open plugin library"), 0u) << from;
+    EXPECT_EQ(testing::message_of<LibraryFailure>([&] { open_library(library); }).find("cannot open plugin library"),
+              0u)
+        << from;
   }
   EXPECT_NE(why_no_shared_library(scratch.path()), "");
   EXPECT_EQ(why_no_shared_library(scratch / "nowhere.so"), "there is no such file");

@@ -11,7 +11,8 @@ const Headway half{"stage 'pull'", "step 500, 3 breaks", 0.5, false};
 
 TEST(Progress, a_steady_pace_gives_the_exact_time_to_go) {
   TimeToGo to_go;
-  for (int second = 0; second <= 40; ++second) to_go.note(second, 0.5 + 0.005 * second);  // a resumed run begins in the middle
+  for (int second = 0; second <= 40; ++second)
+    to_go.note(second, 0.5 + 0.005 * second);  // a resumed run begins in the middle
   EXPECT_NEAR(to_go.seconds().value(), (1 - 0.7) / 0.005, 1e-6);
 }
 
@@ -52,10 +53,12 @@ TEST(Progress, a_line_has_a_bar_and_fits_the_terminal_whatever_its_width) {
 }
 
 TEST(Progress, without_a_share_there_is_neither_bar_nor_time) {
-  EXPECT_EQ(progress_line({"relaxation 'all'", "largest overlap 0.01", {}, false}, {}, 79), "relaxation 'all', largest overlap 0.01");
+  EXPECT_EQ(progress_line({"relaxation 'all'", "largest overlap 0.01", {}, false}, {}, 79),
+            "relaxation 'all', largest overlap 0.01");
   Headway perhaps = half;
   perhaps.at_most = true;
-  EXPECT_EQ(progress_line(perhaps, 7200, 79), " 50 % [########.......] at most 2.0 h to go  stage 'pull', step 500, 3 breaks");
+  EXPECT_EQ(progress_line(perhaps, 7200, 79),
+            " 50 % [########.......] at most 2.0 h to go  stage 'pull', step 500, 3 breaks");
 }
 
 TEST(Progress, letters_of_several_bytes_are_not_cut_and_wide_ones_count_twice) {

@@ -25,13 +25,17 @@ QualityFigures told(const Quality& quality) {
 
 void note(Quality& quality, Real load, bool broken, int steps = 1) {
   quality.follow(1);
-  for (int k = 0; k < steps; ++k) quality.note_load(1, [load](std::size_t) { return load; }, broken);
+  for (int k = 0; k < steps; ++k)
+    quality.note_load(
+        1, [load](std::size_t) { return load; }, broken);
 }
 
 // Full swings about nothing.
 void note_swings(Quality& quality, Real load) {
   quality.follow(1);
-  for (int k = 0; k < 1000; ++k) quality.note_load(1, [&](std::size_t) { return load * std::sin(0.1 * k); }, true);
+  for (int k = 0; k < 1000; ++k)
+    quality.note_load(
+        1, [&](std::size_t) { return load * std::sin(0.1 * k); }, true);
 }
 
 TEST(Quality, of_what_is_sound_counts_from_when_it_is_loaded) {
@@ -74,7 +78,11 @@ TEST(Quality, leaves_out_what_comes_when_the_specimen_has_failed_and_the_look_ju
   Quality quality;
   note(quality, 200, false);
   quality.look({.stored = 400, .kinetic = 2, .load = 200, .imbalance = 1, .broken = false});
-  quality.look({.stored = 200, .kinetic = 150, .load = 200, .imbalance = 100, .broken = true});  // a wave on its way to the grips
+  quality.look({.stored = 200,
+                .kinetic = 150,
+                .load = 200,
+                .imbalance = 100,
+                .broken = true});  // a wave on its way to the grips
   for (int k = 0; k < 3; ++k) {
     note_swings(quality, 200);
     quality.look({.stored = 200, .kinetic = 150, .load = 100, .imbalance = 100, .broken = true});
@@ -173,8 +181,9 @@ TEST(Quality, of_what_no_look_saw_is_not_judged) {
 TEST(Quality, is_good_only_when_every_figure_is) {
   EXPECT_EQ(judged({}).word, "good");
   EXPECT_THAT(judged({}).remarks, IsEmpty());
-  for (Real QualityFigures::*figure : {&QualityFigures::residual, &QualityFigures::kinetic, &QualityFigures::kinetic_cracking, &QualityFigures::imbalance,
-                                       &QualityFigures::imbalance_cracking, &QualityFigures::free_motion_share}) {
+  for (Real QualityFigures::*figure :
+       {&QualityFigures::residual, &QualityFigures::kinetic, &QualityFigures::kinetic_cracking,
+        &QualityFigures::imbalance, &QualityFigures::imbalance_cracking, &QualityFigures::free_motion_share}) {
     QualityFigures some;
     some.*figure = 0.06;
     EXPECT_NE(judged(some).word, "good");
@@ -193,7 +202,8 @@ TEST(Quality, of_a_dynamic_scene_is_its_balance) {
 TEST(Quality, of_a_worse_run_is_no_better) {
   EXPECT_EQ(judged({.kinetic = 0.9}).word, "poor");
   EXPECT_EQ(judged({.kinetic = 0.9, .imbalance = 0.8}).word, "poor");
-  EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks, ElementsAre(HasSubstr("90 %"), HasSubstr("80 %"), HasSubstr("looks like waves")));
+  EXPECT_THAT(judged({.kinetic = 0.9, .imbalance = 0.8}).remarks,
+              ElementsAre(HasSubstr("90 %"), HasSubstr("80 %"), HasSubstr("looks like waves")));
 }
 
 TEST(Quality, of_what_rang_and_came_to_rest_is_fair_unless_something_broke) {

@@ -21,8 +21,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const RunMeta about_the_run = {.name = "bar", .deck = "<scene/>", .resolved = "<scene resolved=\"yes\"/>", .deck_sha256 = "5e88", .overrides = {}, .files = {}, .version = "0.1.0",
-                               .plugins = {"bond/spring 0.1.0 lib.so"}, .threads = 2, .seed = 7, .packing = "{\"Z\": 6.2}"};
+const RunMeta about_the_run = {.name = "bar",
+                               .deck = "<scene/>",
+                               .resolved = "<scene resolved=\"yes\"/>",
+                               .deck_sha256 = "5e88",
+                               .overrides = {},
+                               .files = {},
+                               .version = "0.1.0",
+                               .plugins = {"bond/spring 0.1.0 lib.so"},
+                               .threads = 2,
+                               .seed = 7,
+                               .packing = "{\"Z\": 6.2}"};
 
 /// A run that records a bar, as the loop does.
 struct Recording {
@@ -31,7 +40,9 @@ struct Recording {
   Recorder recorder;
 
   explicit Recording(const fs::path& root, Index count = 200, Recorder::Options options = {})
-      : folder(RunFolder::fresh(root, true)), recorder((declare_bar(domain), fill_bar(domain, count), Recorder::fresh(folder, about_the_run, options, domain))) {}
+      : folder(RunFolder::fresh(root, true)),
+        recorder(
+            (declare_bar(domain), fill_bar(domain, count), Recorder::fresh(folder, about_the_run, options, domain))) {}
 
   FrameRequest request() {
     const BondTable& resin = *domain.families()[0];
@@ -219,7 +230,8 @@ TEST(Recorder, the_log_of_breaks_is_up_to_date_without_a_frame) {
   run.frame(0);
   break_some(run.domain, 1, 40, 90);
   run.recorder.write_breaks(run.domain);
-  EXPECT_THAT(record::FrameReader(run.folder.record()).breaks().family, ElementsAre("interface", "interface", "interface"));
+  EXPECT_THAT(record::FrameReader(run.folder.record()).breaks().family,
+              ElementsAre("interface", "interface", "interface"));
   EXPECT_EQ(read_dataset(run.folder.record(), "breaks/energy").unit, "J");
   EXPECT_THAT(read_dataset(run.folder.record(), "breaks/place").extent, ElementsAre(3u, 3u));
 }
@@ -231,7 +243,8 @@ TEST(Recorder, single_precision_takes_half_the_room_and_rounds) {
   single.frame(0);
   const std::string name = "frames/000000000000/elements/velocity";
   const auto a = read_dataset(whole.folder.record(), name), b = read_dataset(single.folder.record(), name);
-  for (std::size_t i = 0; i < a.numbers.size(); ++i) EXPECT_EQ(b.numbers[i], static_cast<Real>(static_cast<float>(a.numbers[i])));
+  for (std::size_t i = 0; i < a.numbers.size(); ++i)
+    EXPECT_EQ(b.numbers[i], static_cast<Real>(static_cast<float>(a.numbers[i])));
   const std::string file = "frames/000000000000.h5";
   EXPECT_LT(fs::file_size(folder_of(single, file)), 0.7 * static_cast<Real>(fs::file_size(folder_of(whole, file))));
 }
@@ -243,7 +256,8 @@ TEST(Recorder, packed_numbers_are_the_same_numbers) {
   packed.frame(0);
   for (const char* name : {"elements/position", "bonds/resin/ends", "bonds/resin/state"}) {
     const std::string full = std::string("frames/000000000000/") + name;
-    EXPECT_EQ(read_dataset(plain.folder.record(), full).numbers, read_dataset(packed.folder.record(), full).numbers) << name;
+    EXPECT_EQ(read_dataset(plain.folder.record(), full).numbers, read_dataset(packed.folder.record(), full).numbers)
+        << name;
   }
   const std::string file = "frames/000000000000.h5";
   EXPECT_LT(fs::file_size(folder_of(packed, file)), fs::file_size(folder_of(plain, file)));
@@ -298,7 +312,8 @@ TEST(Recorder, a_kill_at_any_moment_leaves_a_record_that_can_be_read_and_continu
         5000 + 4000 * trial);
     const auto steps = steps_of(run.folder.record());
     ASSERT_GE(steps.size(), static_cast<std::size_t>(newest) + 1) << "trial " << trial;
-    for (std::size_t i = 0; i < steps.size(); ++i) ASSERT_EQ(steps[i], static_cast<std::int64_t>(i)) << "trial " << trial;
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      ASSERT_EQ(steps[i], static_cast<std::int64_t>(i)) << "trial " << trial;
     newest = steps.back();
   }
   EXPECT_GT(newest, 5) << "the kills came before anything was written";
@@ -389,13 +404,15 @@ TEST(Recorder, files_of_others_among_the_frames_are_neither_taken_nor_removed) {
   const Scratch scratch;
   Recording run(scratch / "out");
   for (const int step : {0, 100}) run.frame(step);
-  for (const char* name : {"frames/000000000050.h5", "frames/000000000300.h5", "frames/consolidated-7.h5"}) write_text(folder_of(run, name), "mine");
+  for (const char* name : {"frames/000000000050.h5", "frames/000000000300.h5", "frames/consolidated-7.h5"})
+    write_text(folder_of(run, name), "mine");
   run.go_on_from(100);
   EXPECT_TRUE(run.recorder.notes().empty());
   std::string reason;
   ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
   EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100));
-  for (const char* name : {"frames/000000000050.h5", "frames/000000000300.h5", "frames/consolidated-7.h5"}) EXPECT_EQ(text_of(folder_of(run, name)), "mine");
+  for (const char* name : {"frames/000000000050.h5", "frames/000000000300.h5", "frames/consolidated-7.h5"})
+    EXPECT_EQ(text_of(folder_of(run, name)), "mine");
 }
 
 TEST(Recorder, a_record_leads_to_no_file_but_its_own_frames) {

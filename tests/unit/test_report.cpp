@@ -122,8 +122,10 @@ TEST_F(Report, has_a_green_badge_of_quality_only_where_it_is_good) {
   EXPECT_THAT(page(), Not(HasSubstr("Quality"))) << "a run of an earlier version has no such figures";
   const std::string before = read(folder / "summary.json");
   const auto with = [&](const std::string& verdict) {
-    write(folder / "summary.json", R"({"quality": {"verdict": ")" + verdict + R"(", "remarks": ["too <fast>"], "kinetic_over_stored": 0.034,
-      "free_motion": 2.5e-5, "free_bodies": [{"elements": 47, "free_to": ["move along x", "turn about z"]}]}, )" + before.substr(1));
+    write(folder / "summary.json", R"({"quality": {"verdict": ")" + verdict +
+                                       R"(", "remarks": ["too <fast>"], "kinetic_over_stored": 0.034,
+      "free_motion": 2.5e-5, "free_bodies": [{"elements": 47, "free_to": ["move along x", "turn about z"]}]}, )" +
+                                       before.substr(1));
     return page();
   };
   EXPECT_THAT(with("good"), HasSubstr("<span class=\"badge done\">quasi-static, in balance</span>"));
@@ -165,13 +167,17 @@ TEST_F(Report, pictures_say_at_which_loading_and_in_which_state_the_specimen_is)
 
 TEST_F(Report, the_ledger_names_its_residual) {
   make_run();
-  EXPECT_THAT(page(), HasSubstr("Residual over the largest energy: <b>1.00 %</b> at the end, 1.00 % at most"));  // derived: (2 - 1.98) / 2
+  EXPECT_THAT(
+      page(),
+      HasSubstr(
+          "Residual over the largest energy: <b>1.00 %</b> at the end, 1.00 % at most"));  // derived: (2 - 1.98) / 2
 }
 
 TEST_F(Report, says_how_near_to_breaking_the_run_came_and_where) {
   make_run();
   const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("<td>interface</td><td>axial-bending</td><td>0.8731</td><td>bond 3 between elements 3, 9, at (3, 0, 0.5) mm, step 80, 800 µs</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>interface</td><td>axial-bending</td><td>0.8731</td><td>bond 3 between elements 3, "
+                              "9, at (3, 0, 0.5) mm, step 80, 800 µs</td>"));
   EXPECT_THAT(html, HasSubstr("<td>&lt;i&gt;</td><td>axial</td><td>0</td><td>no bond was under load</td>"));
 }
 
@@ -189,12 +195,14 @@ TEST_F(Report, breaks_over_time_are_steps) {
   write(folder / "summary.json", R"({"status": "done", "time": 1e-3})");
   // One break at half of the time: level up to there, one up, level to the end of the run.
   const double middle = report::Axes::left + 0.5 * (report::Axes::width - report::Axes::left - report::Axes::right);
-  EXPECT_THAT(page(), testing::ContainsRegex(fmt::format("L{0:.1f} [0-9.]+L{0:.1f} [0-9.]+L{1:.1f} ", middle, report::Axes::width - report::Axes::right)));
+  EXPECT_THAT(page(), testing::ContainsRegex(fmt::format("L{0:.1f} [0-9.]+L{0:.1f} [0-9.]+L{1:.1f} ", middle,
+                                                         report::Axes::width - report::Axes::right)));
 }
 
 TEST_F(Report, a_curve_of_a_held_set_is_drawn_against_time) {
   make_run();
-  write(folder / "curves/force.csv", "step [1],time [s],displacement [m],force [N]\n0,0,0,0\n50,5e-4,0,30\n100,1e-3,0,60\n");
+  write(folder / "curves/force.csv",
+        "step [1],time [s],displacement [m],force [N]\n0,0,0,0\n50,5e-4,0,30\n100,1e-3,0,60\n");
   write(folder / "curves/force.json", R"({"title": "Load", "x": "displacement", "y": ["force"]})");
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr(">time [ms]</text>"));
@@ -217,7 +225,9 @@ TEST_F(Report, recorded_fields_are_drawn_with_their_colour_bar) {
   request.view = "y";
   recorder.write({0, 0, 0}, request, domain);
   const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("<b>pull</b> of the bonds<div class=\"colorbar\"><span>−3</span>"));  // as far below zero as above
+  EXPECT_THAT(
+      html,
+      HasSubstr("<b>pull</b> of the bonds<div class=\"colorbar\"><span>−3</span>"));  // as far below zero as above
   EXPECT_THAT(html, HasSubstr("<span>3 N</span>"));
   EXPECT_THAT(html, HasSubstr("<b>heat</b>: 300 K everywhere; 1 value not a number."));
   EXPECT_THAT(html, HasSubstr("Seen along y, "));  // as the snapshot said
@@ -299,7 +309,8 @@ TEST_F(Report, an_interrupted_run_says_why_it_ended) {
 TEST_F(Report, one_bad_number_is_left_out_and_the_rest_is_drawn) {
   make_run();
   write(folder / "curves/force.csv",
-        "step [1],time [s],displacement [m],force [N]\n0,0,0,0\n50,5e-4,1e-4,nan\n60,6e-4,1.2e-4,1e308\n70,7e-4,1.4e-4,1e999\n100,1e-3,2e-4,60\n");
+        "step [1],time [s],displacement [m],force "
+        "[N]\n0,0,0,0\n50,5e-4,1e-4,nan\n60,6e-4,1.2e-4,1e308\n70,7e-4,1.4e-4,1e999\n100,1e-3,2e-4,60\n");
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("In curves/force.csv, 3 numbers are infinite, undefined or too large to be drawn"));
   EXPECT_THAT(html, HasSubstr(">60</text>"));  // the axis is that of what is drawn
@@ -370,7 +381,8 @@ class BatchReport : public Report {
       const std::string name = fmt::format("k={}", k);
       table += fmt::format("{},{},done,2\n", name, k);
       write(folder / name / "summary.json", R"({"status": "done"})");
-      write(folder / name / "curves/force.csv", fmt::format("step [1],time [s],force [N]\n0,0,0\n1,1,{0}\n2,{1},{0}\n", k * k, 1 + k));
+      write(folder / name / "curves/force.csv",
+            fmt::format("step [1],time [s],force [N]\n0,0,0\n1,1,{0}\n2,{1},{0}\n", k * k, 1 + k));
     }
     write(folder / "batch.csv", table);
   }
@@ -483,8 +495,8 @@ TEST(ReportChart, thinning_keeps_the_peak_and_the_ends) {
   y[12345] = -3;
   const auto rows = report::thinned(y, 900);
   EXPECT_LE(rows.size(), 1000U);
-  EXPECT_THAT(rows, testing::AllOf(testing::Contains(54321U), testing::Contains(12345U),
-                                   testing::Contains(99999U), testing::Contains(0U)));
+  EXPECT_THAT(rows, testing::AllOf(testing::Contains(54321U), testing::Contains(12345U), testing::Contains(99999U),
+                                   testing::Contains(0U)));
 }
 
 TEST(ReportText, numbers_read_well) {

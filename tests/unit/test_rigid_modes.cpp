@@ -30,7 +30,8 @@ struct Cube {
 };
 
 TEST(RigidModes, of_a_body_that_nothing_holds_are_six) {
-  EXPECT_THAT(Cube().free(), ElementsAre("move along x", "move along y", "move along z", "turn about x", "turn about y", "turn about z"));
+  EXPECT_THAT(Cube().free(), ElementsAre("move along x", "move along y", "move along z", "turn about x", "turn about y",
+                                         "turn about z"));
 }
 
 TEST(RigidModes, of_a_body_held_at_one_point_are_its_turns) {

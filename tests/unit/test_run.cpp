@@ -40,7 +40,8 @@ class Tripwire final : public Watcher {
   std::int64_t looks_ = 0;
 };
 
-RunFigures run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options, const std::vector<Override>& overrides = {}) {
+RunFigures run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options,
+                    const std::vector<Override>& overrides = {}) {
   Complaints complaints;
   const auto read = read_deck(deck.string(), overrides, complaints);
   Catalogue catalogue = Catalogue::open({});
@@ -61,7 +62,8 @@ TEST(Run, has_a_first_checkpoint_long_before_the_second) {
   options.first_checkpoint_seconds = 0.1;
   testing::kill_during([&] { run_deck(scratch / "deck.xml", scratch / "early", options); }, 3'000'000);
   ASSERT_TRUE(std::filesystem::exists(scratch / "early/checkpoint.h5"));
-  EXPECT_LT(read_checkpoint_meta(scratch / "early/checkpoint.h5").moment.time, 10);  // some 60 s are reached in the three of the clock
+  EXPECT_LT(read_checkpoint_meta(scratch / "early/checkpoint.h5").moment.time,
+            10);  // some 60 s are reached in the three of the clock
   options.first_checkpoint_seconds = 600;
   testing::kill_during([&] { run_deck(scratch / "deck.xml", scratch / "late", options); }, 1'000'000);
   EXPECT_TRUE(std::filesystem::exists(scratch / "late/summary.json"));
@@ -73,14 +75,15 @@ TEST(Run, does_not_count_checkpoints_among_the_seconds_of_its_loop) {
   std::string deck = endless;
   testing::write_text(scratch / "deck.xml", deck.replace(deck.find("1000000000000"), 13, "200"));
   RunOptions options;
-  options.first_checkpoint_seconds = options.checkpoint_seconds = 0;  // one after each step: milliseconds beside microseconds
+  options.first_checkpoint_seconds = options.checkpoint_seconds =
+      0;  // one after each step: milliseconds beside microseconds
   const RunFigures figures = run_deck(scratch / "deck.xml", scratch / "out", options);
   EXPECT_GT(figures.loop_seconds, 0);
   EXPECT_LT(figures.loop_seconds, 0.2 * figures.wall_seconds);
 }
 
-// Both watchers look at the last step of the first stage and at the same step where the second begins; a kill then comes behind the
-// checkpoint of that step.
+// Both watchers look at the last step of the first stage and at the same step where the second begins; a kill then
+// comes behind the checkpoint of that step.
 constexpr const char* two_stages = R"(<scene>
   <parameter name="look" value="1000"/>
   <fill>
@@ -124,15 +127,19 @@ TEST(Run, that_was_killed_where_a_stage_begins_has_no_row_twice_and_frames_as_wi
     RunOptions options;
     run_deck(scratch / "deck.xml", whole, options, {{"look", look}});
     const auto rows = split(testing::text_of(whole / "curves/force.csv"), '\n');
-    EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const std::string& row) { return row.starts_with("30,"); }), 2);
+    EXPECT_EQ(std::count_if(rows.begin(), rows.end(), [](const std::string& row) { return row.starts_with("30,"); }),
+              2);
     ASSERT_TRUE(is_killed([&] {
       Tripwire::is_armed = true;
       run_deck(scratch / "deck.xml", killed, options, {{"look", look}});
     }));
     options.resume = true;
     run_deck(scratch / "deck.xml", killed, options, {{"look", look}});
-    const std::string compare = std::string("cd ") + BEADWORK_SOURCE_DIR "/tests/support && /usr/bin/python3 -c 'import pathlib, sys, same_run; " +
-                                "odd = same_run.differences(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])); sys.exit(str(odd) if odd else 0)' ";
+    const std::string compare = std::string("cd ") +
+                                BEADWORK_SOURCE_DIR
+                                "/tests/support && /usr/bin/python3 -c 'import pathlib, sys, same_run; " +
+                                "odd = same_run.differences(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])); "
+                                "sys.exit(str(odd) if odd else 0)' ";
     EXPECT_EQ(std::system((compare + whole.string() + " " + killed.string()).c_str()), 0) << "look " << look;
   }
 }

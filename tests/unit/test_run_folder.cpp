@@ -17,7 +17,8 @@ namespace {
 /// What a run leaves: its files, each on its list.
 void leave_a_run(const fs::path& root) {
   RunFolder folder = RunFolder::fresh(root, false);
-  for (const char* name : {"curves/force.csv", "curves/force.json", "frames/000000000100.h5"}) folder.claim(root / name);
+  for (const char* name : {"curves/force.csv", "curves/force.json", "frames/000000000100.h5"})
+    folder.claim(root / name);
   for (const char* name : {"summary.json", "resolved.xml", "run.h5", "run.xmf", "run.log", "checkpoint.h5",
                            "checkpoint.h5.part", "curves/force.csv", "curves/force.json", "frames/000000000100.h5"})
     write_text(root / name, "old");
@@ -66,8 +67,9 @@ TEST(RunFolder, a_run_that_was_killed_before_its_summary_counts_as_a_run) {
 TEST(RunFolder, overwrite_removes_what_the_run_made_and_nothing_else) {
   const Scratch scratch;
   leave_a_run(scratch / "out");
-  const std::vector<std::string> others = {"notes.txt", "run.h5.bak", "report.html", "curves/mine.py", "curves/measured.csv", "curves/measured.json",
-                                           "curves/old.csv.part", "frames/movie.mp4", "frames/000000000200.h5"};
+  const std::vector<std::string> others = {"notes.txt",           "run.h5.bak",          "report.html",
+                                           "curves/mine.py",      "curves/measured.csv", "curves/measured.json",
+                                           "curves/old.csv.part", "frames/movie.mp4",    "frames/000000000200.h5"};
   for (const std::string& name : others) write_text(scratch / "out" / name, "mine");
   RunFolder folder = RunFolder::fresh(scratch / "out", true);
   write_text(folder.log(), "new");
@@ -87,7 +89,8 @@ TEST(RunFolder, curves_of_somebody_else_are_no_run) {
   fs::create_directories(scratch / "out/curves");
   write_text(scratch / "out/curves/measured.csv", "step [1],time [s]\n1,2\n");
   for (const bool overwrite : {false, true})
-    EXPECT_THAT(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", overwrite); }), HasSubstr("holds no run"));
+    EXPECT_THAT(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", overwrite); }),
+                HasSubstr("holds no run"));
   EXPECT_EQ(text_of(scratch / "out/curves/measured.csv"), "step [1],time [s]\n1,2\n");
 }
 
@@ -98,7 +101,8 @@ TEST(RunFolder, a_file_in_the_way_of_a_run_is_left_alone_and_named) {
   RunFolder folder = RunFolder::fresh(scratch / "out", true);
   EXPECT_THROW(folder.claim(folder.curve("force")), std::logic_error) << "the former run still stands";
   folder.take_over();
-  EXPECT_THAT(message_of<DeckFailure>([&] { folder.claim(folder.curve("measured")); }), HasSubstr("curves/measured.csv"));
+  EXPECT_THAT(message_of<DeckFailure>([&] { folder.claim(folder.curve("measured")); }),
+              HasSubstr("curves/measured.csv"));
   EXPECT_NO_THROW(folder.claim(folder.curve("force")));
   for (const std::string name : {"../summary", "../../elsewhere", "a/b", "line\nbreak", "/etc/passwd"})
     EXPECT_THROW(folder.claim(folder.curve(name)), DeckFailure) << name;
@@ -135,7 +139,8 @@ TEST(RunFolder, a_damaged_list_leads_to_no_file_outside) {
   leave_a_run(scratch / "out");
   write_text(scratch / "precious", "precious");
   const std::string list = text_of(scratch / "out" / Manifest::file_name);
-  write_text(scratch / "out" / Manifest::file_name, list + "../precious\ncurves/../../precious\n" + (scratch / "precious").string() + "\nframes/..\n");
+  write_text(scratch / "out" / Manifest::file_name,
+             list + "../precious\ncurves/../../precious\n" + (scratch / "precious").string() + "\nframes/..\n");
   RunFolder::fresh(scratch / "out", true);
   EXPECT_EQ(text_of(scratch / "precious"), "precious");
 }
@@ -144,7 +149,9 @@ TEST(RunFolder, a_run_that_kept_no_list_is_refused_with_the_reason) {
   const Scratch scratch;
   leave_a_run(scratch / "out");
   fs::remove(scratch / "out" / Manifest::file_name);
-  const auto expect_refusal = [](const std::string& said) { EXPECT_THAT(said, HasSubstr("kept no list of its files")); };
+  const auto expect_refusal = [](const std::string& said) {
+    EXPECT_THAT(said, HasSubstr("kept no list of its files"));
+  };
   expect_refusal(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", true); }));
   expect_refusal(message_of<DeckFailure>([&] { RunFolder::resume(scratch / "out"); }));
   EXPECT_EQ(text_of(scratch / "out/curves/force.csv"), "old");
@@ -168,7 +175,8 @@ TEST(RunFolder, overwriting_follows_no_link_out_of_the_folder) {
   write_text(scratch / "elsewhere/force.csv", "precious");
   fs::remove_all(scratch / "out/curves");
   fs::create_directory_symlink(scratch / "elsewhere", scratch / "out/curves");
-  EXPECT_THAT(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", true).take_over(); }), HasSubstr("out/curves"));
+  EXPECT_THAT(message_of<DeckFailure>([&] { RunFolder::fresh(scratch / "out", true).take_over(); }),
+              HasSubstr("out/curves"));
   EXPECT_EQ(text_of(scratch / "elsewhere/force.csv"), "precious");
   EXPECT_EQ(text_of(scratch / "out/checkpoint.h5"), "old");
 }
@@ -180,7 +188,8 @@ TEST(RunFolder, writing_follows_no_link_and_waits_for_no_pipe) {
   write_atomically(scratch / "report.html", "new");  // takes the link's place
   EXPECT_EQ(text_of(scratch / "report.html"), "new");
   fs::create_symlink(scratch / "precious", scratch / "summary.json.part");
-  EXPECT_THAT(message_of<MachineFailure>([&] { write_atomically(scratch / "summary.json", "new"); }), HasSubstr("it is a link"));
+  EXPECT_THAT(message_of<MachineFailure>([&] { write_atomically(scratch / "summary.json", "new"); }),
+              HasSubstr("it is a link"));
   ASSERT_EQ(::mkfifo((scratch / "run.log").c_str(), 0600), 0);
   EXPECT_THAT(message_of<MachineFailure>([&] { read_text(scratch / "run.log", 100); }), HasSubstr("it is a pipe"));
   EXPECT_THAT(message_of<MachineFailure>([&] { overwrite(scratch / "run.log", "x"); }), HasSubstr("it is a pipe"));

@@ -11,10 +11,10 @@
 namespace beadwork {
 namespace {
 
-using testing::Parts;
-using testing::Scratch;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::Parts;
+using testing::Scratch;
 
 constexpr const char* two_stages = R"(<scene>
   <fill>

@@ -45,20 +45,26 @@ TEST(SameDeck, may_end_and_look_when_it_likes) {
 
 TEST(SameDeck, says_of_each_attribute_that_differs_where_it_stands) {
   const std::string text = said(changed("x &lt; 1 m", "x &lt; 2 m"));
-  EXPECT_THAT(text, HasSubstr("resolved.xml:2:82: error: 'where' is \"x < 2 m\" here, but \"x < 1 m\" in the run that is to go on"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("resolved.xml:2:82: error: 'where' is \"x < 2 m\" here, but \"x < 1 m\" in the run that is to go on"));
   EXPECT_THAT(text, HasSubstr("1 error"));
-  EXPECT_THAT(said(changed("every=\"1\"", "every=\"2\"")), HasSubstr("'every' is \"2\" here, but \"1\""));  // of a criterion: physics
+  EXPECT_THAT(said(changed("every=\"1\"", "every=\"2\"")),
+              HasSubstr("'every' is \"2\" here, but \"1\""));  // of a criterion: physics
   EXPECT_THAT(said(changed("at=\"5\"", "at=\"6\"")), HasSubstr("'at' is"));
-  EXPECT_THAT(said(changed(" at=\"5\"", "")), HasSubstr("<force-curve> has at=\"5\" in the run that is to go on, and no 'at' here"));
+  EXPECT_THAT(said(changed(" at=\"5\"", "")),
+              HasSubstr("<force-curve> has at=\"5\" in the run that is to go on, and no 'at' here"));
   EXPECT_THAT(said(changed("seed=\"1\"", "seed=\"2\"")), HasSubstr("'seed' is"));
-  EXPECT_THAT(said(changed("file=\"/one/balls.txt\"", "file=\"/one/balls.txt\" unit=\"mm\"")), HasSubstr("'unit' is \"mm\" here, but not given in"));
+  EXPECT_THAT(said(changed("file=\"/one/balls.txt\"", "file=\"/one/balls.txt\" unit=\"mm\"")),
+              HasSubstr("'unit' is \"mm\" here, but not given in"));
 }
 
 TEST(SameDeck, says_what_came_and_what_went) {
   const std::string less = said(changed("<region set=\"left\" where=\"x &lt; 1 m\"/>", ""));
   EXPECT_THAT(less, HasSubstr("<fill> has <region set=\"left\"> in the run that is to go on, and not here"));
   EXPECT_THAT(less, HasSubstr("1 error"));
-  EXPECT_THAT(said(changed("<fail>", "<fail><bond-stress of=\"glue\"/>")), HasSubstr("<bond-stress of=\"glue\"> is not in the run that is to go on"));
+  EXPECT_THAT(said(changed("<fail>", "<fail><bond-stress of=\"glue\"/>")),
+              HasSubstr("<bond-stress of=\"glue\"> is not in the run that is to go on"));
 }
 
 TEST(SameDeck, may_lie_elsewhere_but_its_files_are_those_of_the_run) {

@@ -48,9 +48,13 @@ void write_and_read_back(const Table& table, const std::vector<Index>& rows) {
 }
 
 template <class V>
-concept its_row_can_be_added_to = requires(V view) { view[0] += Vec3(1, 0, 0); };
+concept its_row_can_be_added_to = requires(V view) {
+  view[0] += Vec3(1, 0, 0);
+};
 template <class V>
-concept its_row_can_be_set = requires(V view) { view[0] = 1.0; };
+concept its_row_can_be_set = requires(V view) {
+  view[0] = 1.0;
+};
 
 TEST(View, tells_vectors_and_lends_numbers) {
   static_assert(!its_row_can_be_added_to<View<Vec3>>, "what is told is a copy: adding to it would be lost");

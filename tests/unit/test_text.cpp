@@ -45,8 +45,7 @@ TEST(Text, a_number_is_read_whole_or_not_at_all) {
 
 TEST(Text, a_number_is_written_so_that_it_reads_back_the_same) {
   EXPECT_EQ(format_number(0.1), "0.1");
-  for (const double x : {1.0 / 3, 1e-300, 123456789.123, -0.0, 5e-324})
-    EXPECT_EQ(parse_number(format_number(x)), x);
+  for (const double x : {1.0 / 3, 1e-300, 123456789.123, -0.0, 5e-324}) EXPECT_EQ(parse_number(format_number(x)), x);
 }
 
 TEST(Text, words_are_split_trimmed_joined_and_renamed) {
@@ -61,7 +60,8 @@ TEST(Text, words_are_split_trimmed_joined_and_renamed) {
 
 std::string marked(const std::vector<std::string>& first, const std::vector<std::string>& second) {
   std::string all;
-  for (const OddLine& line : odd_lines(first, second)) all += (line.in_second ? "+" + second[line.number] : "-" + first[line.number]);
+  for (const OddLine& line : odd_lines(first, second))
+    all += (line.in_second ? "+" + second[line.number] : "-" + first[line.number]);
   return all;
 }
 

@@ -44,8 +44,8 @@ TEST(Units, a_small_one_gives_the_number_that_a_reader_would_write) {
 }
 
 TEST(Units, what_is_none_is_refused) {
-  for (const char* bad : {"", "mmm", "N mm", "m)", "5 m", "mm@5", "lg(re 1 mW)", "m^", "m/", "/s", "degC",
-                          "\xff", "2", "m^x", "m//s", "m^999999", "seconds since 1970"})
+  for (const char* bad : {"", "mmm", "N mm", "m)", "5 m", "mm@5", "lg(re 1 mW)", "m^", "m/", "/s", "degC", "\xff", "2",
+                          "m^x", "m//s", "m^999999", "seconds since 1970"})
     EXPECT_FALSE(find_unit(bad)) << bad;
 }
 
@@ -61,8 +61,8 @@ TEST(Units, angles_are_plain_numbers) {
 }
 
 TEST(Units, a_dimension_has_a_name_that_reads_back) {
-  for (const char* unit : {"Pa", "N/m", "Pa/m", "N", "J", "W", "m^2", "m/s^2", "kg/m^3", "kg.m^2/s", "1/s",
-                           "1", "Pa.m^0.5", "mol/m^3", "cd", "A.s", "J/kg/K"}) {
+  for (const char* unit : {"Pa", "N/m", "Pa/m", "N", "J", "W", "m^2", "m/s^2", "kg/m^3", "kg.m^2/s", "1/s", "1",
+                           "Pa.m^0.5", "mol/m^3", "cd", "A.s", "J/kg/K"}) {
     const Dimension dimension = find_unit(unit)->dimension;
     ASSERT_TRUE(find_unit(dimension.name())) << dimension.name();
     EXPECT_EQ(find_unit(dimension.name())->dimension, dimension) << unit;

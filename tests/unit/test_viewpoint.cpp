@@ -52,7 +52,9 @@ TEST(Viewpoint, a_compressed_cylinder_with_breaks_all_over_is_seen_from_its_side
 
 TEST(Viewpoint, a_crack_is_seen_from_its_edge_and_from_above) {
   const Vec3 size(40, 6, 10);
-  const auto crack = [&](std::size_t k) { return Vec3(20 + 0.5 * even(k, 0.3), anywhere(k, size).y(), anywhere(k, size).z()); };
+  const auto crack = [&](std::size_t k) {
+    return Vec3(20 + 0.5 * even(k, 0.3), anywhere(k, size).y(), anywhere(k, size).z());
+  };
   const Viewpoint view = choose_viewpoint(weak_bonds(broken_at(30, crack), {}), size, "");
   EXPECT_EQ(view.bodies, 1);
   EXPECT_EQ(view.bonds, 0);
@@ -91,7 +93,8 @@ TEST(ColorScale, zero_is_in_the_middle_where_both_signs_occur) {
 TEST(Palette, no_set_has_the_colour_of_a_state) {
   for (const Color set : palette::sets)
     for (const Color state : {palette::elastic, palette::softening, palette::broken})
-      EXPECT_GT(std::hypot(set.red - state.red, set.green - state.green, set.blue - state.blue), 0.2F) << css(set) << " and " << css(state);
+      EXPECT_GT(std::hypot(set.red - state.red, set.green - state.green, set.blue - state.blue), 0.2F)
+          << css(set) << " and " << css(state);
 }
 
 }  // namespace

@@ -55,16 +55,15 @@ std::string Axes::svg() const {
   const double base = height - bottom;
   for (const double v : ticks(y.low, y.high, 5))
     out += fmt::format(
-        "<line class=\"grid{4}\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>"
-        "<text class=\"tick\" x=\"{3}\" y=\"{2:.1f}\" dy=\".35em\" text-anchor=\"end\">{5}</text>",
+        "<line class=\"grid{4}\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/><text class=\"tick\" x=\"{3}\" "
+        "y=\"{2:.1f}\" dy=\".35em\" text-anchor=\"end\">{5}</text>",
         left, width - right, down(v), left - 9, v == 0 ? " zero" : "", number(v));
   for (const double v : ticks(x.low, x.high, 8))
     out += fmt::format(
-        "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>"
-        "<text class=\"tick\" x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>",
+        "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/><text class=\"tick\" x=\"{0:.1f}\" "
+        "y=\"{3}\" text-anchor=\"middle\">{4}</text>",
         across(v), top, base, base + 19, number(v));
-  out += fmt::format("<line class=\"base\" x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\"/>", left, width - right,
-                     base, base);
+  out += fmt::format("<line class=\"base\" x1=\"{}\" x2=\"{}\" y1=\"{}\" y2=\"{}\"/>", left, width - right, base, base);
   out += fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
                      0.5 * (left + width - right), height - 9, escaped(x_label));
   out += fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text></g>", 4, 13, escaped(y_label));

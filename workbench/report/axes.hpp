@@ -25,9 +25,7 @@ struct Axes {
   std::string x_label, y_label;
 
   double across(double value) const { return left + (value - x.low) / x.span() * (width - left - right); }
-  double down(double value) const {
-    return height - bottom - (value - y.low) / y.span() * (height - top - bottom);
-  }
+  double down(double value) const { return height - bottom - (value - y.low) / y.span() * (height - top - bottom); }
   std::string svg() const;  ///< grid, ticks with their numbers, labels
 };
 

@@ -55,23 +55,29 @@ struct Batch {
 Batch batch_in(const fs::path& folder) {
   Batch batch;
   std::vector<Row> rows = rows_of(read_text(folder / "batch.csv", longest_table));
-  const auto refuse = [&] { throw MachineFailure("'" + (folder / "batch.csv").string() + "' is not the table of a batch"); };
+  const auto refuse = [&] {
+    throw MachineFailure("'" + (folder / "batch.csv").string() + "' is not the table of a batch");
+  };
   if (rows.empty() || rows.front().front() != "run") refuse();
   batch.names = std::move(rows.front());
-  batch.status = static_cast<std::size_t>(std::find(batch.names.begin(), batch.names.end(), "status") - batch.names.begin());
+  batch.status =
+      static_cast<std::size_t>(std::find(batch.names.begin(), batch.names.end(), "status") - batch.names.begin());
   if (batch.status == batch.names.size()) refuse();
   for (std::size_t r = 1; r < rows.size(); ++r)
     if (rows[r].size() == batch.names.size()) batch.runs.push_back(std::move(rows[r]));
   return batch;
 }
 
-bool is_plain_name(const std::string& name) { return !name.empty() && name.find('/') == std::string::npos && name != "." && name != ".."; }
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name.find('/') == std::string::npos && name != "." && name != "..";
+}
 
 /// "young = 30 GPa, seed = 2": what tells this run from the others.
 std::string label_of(const Batch& batch, const Row& run) {
   std::string label;
   for (std::size_t k = 1; k < batch.status; ++k) {
-    const bool varies = std::any_of(batch.runs.begin(), batch.runs.end(), [&](const Row& other) { return other[k] != run[k]; });
+    const bool varies =
+        std::any_of(batch.runs.begin(), batch.runs.end(), [&](const Row& other) { return other[k] != run[k]; });
     if (varies) label += (label.empty() ? "" : ", ") + batch.names[k] + " = " + run[k];
   }
   return label.empty() ? run.front() : label;
@@ -88,11 +94,16 @@ std::string table(const Batch& batch, const fs::path& folder) {
   for (const Row& run : batch.runs) {
     std::error_code error;  // of a name that is too long
     const bool linked = is_plain_name(run.front()) && fs::exists(folder / run.front() / "report.html", error);
-    body += "<tr><th>" + (linked ? "<a href=\"" + escaped(run.front()) + "/report.html\">" + escaped(run.front()) + "</a>" : escaped(run.front())) + "</th>";
-    for (std::size_t k = 1; k < run.size(); ++k) body += k == batch.status ? "<td>" + badge(run[k]) + "</td>" : cell(run[k]);
+    body += "<tr><th>" +
+            (linked ? "<a href=\"" + escaped(run.front()) + "/report.html\">" + escaped(run.front()) + "</a>"
+                    : escaped(run.front())) +
+            "</th>";
+    for (std::size_t k = 1; k < run.size(); ++k)
+      body += k == batch.status ? "<td>" + badge(run[k]) + "</td>" : cell(run[k]);
     body += "</tr>\n";
   }
-  return section("Runs", "<div style=\"overflow-x:auto\"><table><thead><tr>" + head + "</tr></thead><tbody>" + body + "</tbody></table></div>");
+  return section("Runs", "<div style=\"overflow-x:auto\"><table><thead><tr>" + head + "</tr></thead><tbody>" + body +
+                             "</tbody></table></div>");
 }
 
 /// What the runs recorded of curves, with what there is to say of it.
@@ -137,10 +148,12 @@ std::string batch_page(const fs::path& folder) {
   Found found = curves_of(batch, folder);
   std::string charts;
   for (const std::string& name : found.names) charts += overlaid(found.by_name[name]);
-  const std::string notes = found.notes.empty() ? "" : "<section class=\"notes\"><ul>" + found.notes + "</ul></section>\n";
+  const std::string notes =
+      found.notes.empty() ? "" : "<section class=\"notes\"><ul>" + found.notes + "</ul></section>\n";
   const std::string title = escaped(name_of_folder(folder));
   const std::string curves = charts.empty() ? "" : section("Curves", "<div class=\"charts\">" + charts + "</div>");
-  return page_with(title + " – Beadwork", "<h1>" + title + "</h1><p>" + plural(static_cast<std::int64_t>(batch.runs.size()), "run") + "</p>",
+  return page_with(title + " – Beadwork",
+                   "<h1>" + title + "</h1><p>" + plural(static_cast<std::int64_t>(batch.runs.size()), "run") + "</p>",
                    notes + curves + table(batch, folder));
 }
 
@@ -149,7 +162,8 @@ std::string batch_page(const fs::path& folder) {
 
 bool is_batch(const std::filesystem::path& folder) {
   std::error_code error;
-  return std::filesystem::is_regular_file(folder / "batch.csv", error) && !std::filesystem::exists(folder / "summary.json", error);
+  return std::filesystem::is_regular_file(folder / "batch.csv", error) &&
+         !std::filesystem::exists(folder / "summary.json", error);
 }
 
 std::string write_batch_report(const std::filesystem::path& batch_folder) {

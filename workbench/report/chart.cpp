@@ -36,8 +36,7 @@ Range width_of(const Chart& chart) {
   Range range{0, 0};
   bool first = true;
   for (const Series& s : chart.series)
-    if (!s.reference)
-      range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
+    if (!s.reference) range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
   if (first)
     for (const Series& s : chart.series)
       range = std::exchange(first, false) ? range_of(s.x) : united(range, range_of(s.x));
@@ -61,8 +60,8 @@ std::string path_of(const Series& s, const Axes& axes) {
 
 std::string line_of(const Series& s, const Axes& axes) {
   if (s.stroke != Stroke::points)
-    return fmt::format("<path class=\"line s{}{}\" d=\"{}\"/>", s.color,
-                       s.stroke == Stroke::dashed ? " dashed" : "", path_of(s, axes));
+    return fmt::format("<path class=\"line s{}{}\" d=\"{}\"/>", s.color, s.stroke == Stroke::dashed ? " dashed" : "",
+                       path_of(s, axes));
   std::string out;
   for (std::size_t i = 0; i < s.x.size(); ++i)
     if (std::isfinite(s.x[i]) && std::isfinite(s.y[i]))
@@ -83,8 +82,8 @@ std::string areas_of(const Chart& chart, const Axes& axes) {
     for (std::size_t k = 0; k < s.y.size(); k += stride) {
       const std::size_t i = k + stride < s.y.size() ? k : s.y.size() - 1;
       const double height = std::isfinite(s.y[i]) ? s.y[i] : 0;
-      above += fmt::format("{}{:.1f} {:.1f}", above.empty() ? "M" : "L", axes.across(s.x[i]),
-                           axes.down(floor[i] + height));
+      above +=
+          fmt::format("{}{:.1f} {:.1f}", above.empty() ? "M" : "L", axes.across(s.x[i]), axes.down(floor[i] + height));
       below = fmt::format("L{:.1f} {:.1f}", axes.across(s.x[i]), axes.down(floor[i])) + below;
     }
     for (std::size_t i = 0; i < s.y.size(); ++i) floor[i] += std::isfinite(s.y[i]) ? s.y[i] : 0;
@@ -94,8 +93,7 @@ std::string areas_of(const Chart& chart, const Axes& axes) {
 }
 
 std::string readout(const Chart& chart, const Series& first, std::size_t i) {
-  std::string text =
-      chart.x_name + " " + number(first.x[i]) + (chart.x_unit.empty() ? "" : " " + chart.x_unit);
+  std::string text = chart.x_name + " " + number(first.x[i]) + (chart.x_unit.empty() ? "" : " " + chart.x_unit);
   for (const Series& s : chart.series)
     if (s.x.size() == first.x.size() && i < s.y.size()) text += "  ·  " + s.label + " " + number(s.y[i]);
   return text;
@@ -115,11 +113,10 @@ std::string probes_of(const Chart& chart, const Axes& axes) {
     const std::size_t i = probes == 1 ? 0 : p * (rows - 1) / (probes - 1);
     if (!std::isfinite(first->x[i]) || !std::isfinite(first->y[i])) continue;
     const double x = axes.across(first->x[i]);
-    const double half =
-        rising ? 0.5 * (Axes::width - Axes::left - Axes::right) / static_cast<double>(probes) + 0.5 : 7;
+    const double half = rising ? 0.5 * (Axes::width - Axes::left - Axes::right) / static_cast<double>(probes) + 0.5 : 7;
     const double top = rising ? Axes::top : axes.down(first->y[i]) - 7;
-    out += fmt::format("<g><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", x - half,
-                       top, 2 * half, rising ? base - top : 14);
+    out += fmt::format("<g><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>", x - half, top,
+                       2 * half, rising ? base - top : 14);
     out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", x, Axes::top, base);
     if (!chart.stacked)
       for (const Series& s : chart.series)
@@ -138,11 +135,9 @@ std::string markers_of(const Chart& chart, const Axes& axes) {
   if (chart.series.empty()) return out;
   const Series& s = chart.series.front();
   for (const Marker& marker : chart.markers) {
-    if (marker.row >= s.x.size() || !std::isfinite(s.x[marker.row]) || !std::isfinite(s.y[marker.row]))
-      continue;
+    if (marker.row >= s.x.size() || !std::isfinite(s.x[marker.row]) || !std::isfinite(s.y[marker.row])) continue;
     out += fmt::format(
-        "<g class=\"marker\"><circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"8\"/><text x=\"{0:.1f}\" "
-        "y=\"{1:.1f}\" "
+        "<g class=\"marker\"><circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"8\"/><text x=\"{0:.1f}\" y=\"{1:.1f}\" "
         "dy=\".36em\" text-anchor=\"middle\">{2}</text></g>",
         axes.across(s.x[marker.row]), axes.down(s.y[marker.row]), escaped(marker.label));
   }
@@ -178,17 +173,17 @@ std::string leavings_of(const Chart& chart, const Axes& axes) {
       const auto leaving = leaving_of(s, axes, upwards);
       if (!leaving) continue;
       const double across = axes.across(s.x[leaving->row]);
-      out += fmt::format("<text class=\"leaves\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{} {} goes on to {}</text>", across,
-                         upwards ? Axes::top + 10 : Axes::height - Axes::bottom - 5, across > 0.5 * Axes::width ? "end" : "start",
-                         upwards ? "↑" : "↓", escaped(s.label), number(leaving->farthest, 3));
+      out += fmt::format(
+          "<text class=\"leaves\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{} {} goes on to {}</text>", across,
+          upwards ? Axes::top + 10 : Axes::height - Axes::bottom - 5, across > 0.5 * Axes::width ? "end" : "start",
+          upwards ? "↑" : "↓", escaped(s.label), number(leaving->farthest, 3));
     }
   }
   return out;
 }
 
 std::string legend_of(const Chart& chart) {
-  if (chart.series.size() == 1 && !chart.y_label.empty())
-    return "<div class=\"legend\"></div>";  // the axis says it
+  if (chart.series.size() == 1 && !chart.y_label.empty()) return "<div class=\"legend\"></div>";  // the axis says it
   std::string out = "<div class=\"legend\">";
   for (const Series& s : chart.series) {
     const char* kind = s.stroke == Stroke::dashed   ? "dashed"
@@ -247,8 +242,8 @@ std::string figure(const Chart& chart) {
   const Axes axes = axes_of(chart);
   std::string out = axes.svg();
   // An inner drawing clips what it holds, and unlike a clip path it needs no name that is unique on the page.
-  out += fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">",
-                     Axes::left, Axes::top - 2, Axes::width - Axes::left - Axes::right + 2,
+  out += fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">", Axes::left,
+                     Axes::top - 2, Axes::width - Axes::left - Axes::right + 2,
                      Axes::height - Axes::top - Axes::bottom + 4);
   if (chart.stacked) out += areas_of(chart, axes);
   for (const Stroke stroke : {Stroke::dashed, Stroke::points, Stroke::solid})
@@ -260,8 +255,7 @@ std::string figure(const Chart& chart) {
 
 std::string figure(const Bars& bars) {
   if (bars.heights.empty() || bars.edges.size() != bars.heights.size() + 1) return "";
-  const Axes axes{range_of(bars.edges), padded(united({0, 0}, range_of(bars.heights))), bars.x_label,
-                  bars.y_label};
+  const Axes axes{range_of(bars.edges), padded(united({0, 0}, range_of(bars.heights))), bars.x_label, bars.y_label};
   std::string out = axes.svg();
   for (std::size_t i = 0; i < bars.heights.size(); ++i) {
     const double left = axes.across(bars.edges[i]), right = axes.across(bars.edges[i + 1]);
@@ -269,8 +263,8 @@ std::string figure(const Bars& bars) {
     out += fmt::format(
         "<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{} to {}: "
         "{}</title></rect>",
-        left + 1, top, std::max(0.5, right - left - 2), std::max(0.0, axes.down(0) - top),
-        number(bars.edges[i]), number(bars.edges[i + 1]), number(bars.heights[i]));
+        left + 1, top, std::max(0.5, right - left - 2), std::max(0.0, axes.down(0) - top), number(bars.edges[i]),
+        number(bars.edges[i + 1]), number(bars.heights[i]));
   }
   return frame(bars.title, "", out);
 }

@@ -10,10 +10,12 @@ namespace beadwork::report {
 
 namespace {
 
-// Anchors of viridis (van der Walt and Smith 2015, CC0) and of the cool-warm map (Moreland 2009, "Diverging Color Maps for
-// Scientific Visualization"): even steps of lightness, legible for colour-blind eyes.
-constexpr std::array<Color, 5> sequential = {color(0x440154), color(0x3B528B), color(0x21918C), color(0x5EC962), color(0xFDE725)};
-constexpr std::array<Color, 5> two_sided = {color(0x3B4CC0), color(0x8DB0FE), color(0xDDDDDD), color(0xF49A7B), color(0xB40426)};
+// Anchors of viridis (van der Walt and Smith 2015, CC0) and of the cool-warm map (Moreland 2009, "Diverging Color Maps
+// for Scientific Visualization"): even steps of lightness, legible for colour-blind eyes.
+constexpr std::array<Color, 5> sequential = {color(0x440154), color(0x3B528B), color(0x21918C), color(0x5EC962),
+                                             color(0xFDE725)};
+constexpr std::array<Color, 5> two_sided = {color(0x3B4CC0), color(0x8DB0FE), color(0xDDDDDD), color(0xF49A7B),
+                                            color(0xB40426)};
 constexpr Color nothing = color(0xB8B8B8);
 constexpr Real left_out = 0.005;  // at each end
 
@@ -34,7 +36,8 @@ std::string ColorScale::css() const {
   std::string stops;
   const auto& map = anchors(*this);
   for (std::size_t k = 0; k < map.size(); ++k)
-    stops += fmt::format(", {} {:.0f}%", report::css(map[k]), 100.0 * static_cast<double>(k) / static_cast<double>(map.size() - 1));
+    stops += fmt::format(", {} {:.0f}%", report::css(map[k]),
+                         100.0 * static_cast<double>(k) / static_cast<double>(map.size() - 1));
   return "linear-gradient(to right" + stops + ")";
 }
 
@@ -55,7 +58,8 @@ ColorScale scale_over(std::vector<Real> values) {
 }
 
 std::string css(Color c) {
-  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255), std::lround(c.blue * 255));
+  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(c.red * 255), std::lround(c.green * 255),
+                     std::lround(c.blue * 255));
 }
 
 }  // namespace beadwork::report

@@ -20,8 +20,8 @@ struct ColorScale {
   std::string css() const;
 };
 
-/// Covers the values but for the lowest and highest half of a percent, so that one splinter does not make all others alike; equal
-/// room on both sides of zero where both signs occur.
+/// Covers the values but for the lowest and highest half of a percent, so that one splinter does not make all others
+/// alike; equal room on both sides of zero where both signs occur.
 ColorScale scale_over(std::vector<Real> values);
 
 /// "#rrggbb"

@@ -79,19 +79,23 @@ std::vector<double> in_units(const Column& column, const std::string& run_unit, 
   return {};
 }
 
-void add_references(Chart& chart, const Curve& curve, const Column& x, const std::string& unit,
-                    const Scale& sx, const Scale& sy) {
+void add_references(Chart& chart, const Curve& curve, const Column& x, const std::string& unit, const Scale& sx,
+                    const Scale& sy) {
   int color = static_cast<int>(chart.series.size());
   const auto x_values = scaled(x.values, sx.factor);
   for (const Column& column : curve.table.columns)
     if (column.is_reference() && column.unit == unit && &column != &x)
-      chart.series.push_back({reference_label(column), x_values, scaled(column.values, sy.factor),
-                              color++ % colors, Stroke::dashed, true});
+      chart.series.push_back({reference_label(column), x_values, scaled(column.values, sy.factor), color++ % colors,
+                              Stroke::dashed, true});
   for (const Reference& reference : curve.references) {
     const Column& rx = reference.table.columns[0];
     const Column& ry = reference.table.columns[1];
-    Series series{reference.label, in_units(rx, x.unit, sx), in_units(ry, unit, sy), color % colors,
-                  rx.values.size() <= 60 ? Stroke::points : Stroke::dashed, true};
+    Series series{reference.label,
+                  in_units(rx, x.unit, sx),
+                  in_units(ry, unit, sy),
+                  color % colors,
+                  rx.values.size() <= 60 ? Stroke::points : Stroke::dashed,
+                  true};
     if (series.x.empty() || series.y.empty()) continue;
     ++color;
     chart.series.push_back(std::move(series));
@@ -100,8 +104,7 @@ void add_references(Chart& chart, const Curve& curve, const Column& x, const std
 
 std::vector<Marker> markers(const Table& table, const std::vector<record::FrameHead>& pictured) {
   std::vector<Marker> out;
-  for (std::size_t k = 0; k < pictured.size(); ++k)
-    out.push_back({row_at(table, pictured[k]), std::to_string(k + 1)});
+  for (std::size_t k = 0; k < pictured.size(); ++k) out.push_back({row_at(table, pictured[k]), std::to_string(k + 1)});
   return out;
 }
 
@@ -123,8 +126,8 @@ std::string panel(const Curve& curve, const Column& x, const std::vector<const C
   chart.y_label = with_unit(alone ? text_of(curve.sidecar, "y_label", together) : together, sy.unit);
   const auto x_values = scaled(x.values, sx.factor);
   for (const Column* column : group)
-    chart.series.push_back({column->name, x_values, scaled(column->values, sy.factor),
-                            static_cast<int>(chart.series.size()) % colors});
+    chart.series.push_back(
+        {column->name, x_values, scaled(column->values, sy.factor), static_cast<int>(chart.series.size()) % colors});
   add_references(chart, curve, x, unit, sx, sy);
   if (!is_clock(x) && group.size() == 1) chart.markers = markers(curve.table, pictured);
   return figure(chart);
@@ -194,8 +197,8 @@ std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of
     chart.y_label = with_unit(y->name, sy.unit);
     for (const auto& [label, line] : lines) {
       const int number = static_cast<int>(chart.series.size());
-      chart.series.push_back({label, scaled(line.first->values, sx.factor), scaled(line.second->values, sy.factor), number % colors,
-                              number / colors % 2 ? Stroke::dashed : Stroke::solid});
+      chart.series.push_back({label, scaled(line.first->values, sx.factor), scaled(line.second->values, sy.factor),
+                              number % colors, number / colors % 2 ? Stroke::dashed : Stroke::solid});
     }
     out += figure(chart);
   }

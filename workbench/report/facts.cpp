@@ -60,7 +60,10 @@ void add_rows(std::string& out, const Json& object, const std::string& before, c
 
 /// Takes the breaks out whose time or energy is no number; returns how many.
 std::size_t leave_out_odd(record::Breaks& log) {
-  const auto odd = [&](std::size_t i) { return !(std::abs(log.time[i]) <= largest_drawn) || (i < log.energy.size() && !(std::abs(log.energy[i]) <= largest_drawn)); };
+  const auto odd = [&](std::size_t i) {
+    return !(std::abs(log.time[i]) <= largest_drawn) ||
+           (i < log.energy.size() && !(std::abs(log.energy[i]) <= largest_drawn));
+  };
   record::Breaks sound;
   for (std::size_t i = 0; i < log.time.size(); ++i) {
     if (odd(i)) continue;
@@ -102,8 +105,7 @@ std::string breaks_over_time(const record::Breaks& log, double end) {
 std::string tail(const std::string& text, int lines) {
   std::size_t start = text.size();
   if (start > 0 && text.back() == '\n') --start;
-  for (int i = 0; i < lines && start != std::string::npos && start > 0; ++i)
-    start = text.rfind('\n', start - 1);
+  for (int i = 0; i < lines && start != std::string::npos && start > 0; ++i) start = text.rfind('\n', start - 1);
   return start == std::string::npos || start == 0 ? text : text.substr(start + 1);
 }
 
@@ -122,7 +124,7 @@ std::string facts_table(const Json& object, const std::string& unit_of_numbers) 
 std::string facts(const Run& run) {
   static constexpr std::array<const char*, 7> headline = {
       "elements", "bonds", "steps", "time_step", "wall_seconds", "bond_updates_per_second", "threads"};
-  static constexpr std::array<const char*, 8> elsewhere = {"status", "exit_reason", "scene",   "energy",
+  static constexpr std::array<const char*, 8> elsewhere = {"status", "exit_reason", "scene",       "energy",
                                                            "breaks", "packing",     "utilisation", "quality"};
   std::string tiles;
   for (const char* key : headline) {
@@ -131,8 +133,7 @@ std::string facts(const Run& run) {
     std::string text;
     if (value->is_object()) {
       for (const auto& [family, number_of] : value->items())
-        text += (text.empty() ? "" : "<br>") + shown(family, number_of, "") + " <small>" + escaped(family) +
-                "</small>";
+        text += (text.empty() ? "" : "<br>") + shown(family, number_of, "") + " <small>" + escaped(family) + "</small>";
     } else {
       text = shown(key, *value, "");
     }
@@ -141,8 +142,7 @@ std::string facts(const Run& run) {
   Json rest = Json::object();
   for (const auto& [key, value] : run.summary.items()) {
     const auto same = [&k = key](const char* known) { return k == known; };
-    if (std::none_of(headline.begin(), headline.end(), same) &&
-        std::none_of(elsewhere.begin(), elsewhere.end(), same))
+    if (std::none_of(headline.begin(), headline.end(), same) && std::none_of(elsewhere.begin(), elsewhere.end(), same))
       rest[key] = value;
   }
   std::string out = tiles.empty() ? "" : "<dl class=\"tiles\">" + tiles + "</dl>";
@@ -165,7 +165,8 @@ std::string breaks(const Run& run) {
     table += "<p class=\"note\">The log of breaks cannot be read: " + escaped(problem.what()) + ".</p>";
   }
   if (const auto odd = static_cast<std::int64_t>(leave_out_odd(log)); odd > 0)
-    table += "<p class=\"note\">Left out: " + plural(odd, "break") + " whose time or energy is no number, infinite or too large.</p>";
+    table += "<p class=\"note\">Left out: " + plural(odd, "break") +
+             " whose time or energy is no number, infinite or too large.</p>";
   if (table.empty() && !log.time.empty()) {
     Json by_mode = Json::object();
     for (const std::string& mode : log.mode) by_mode[mode] = by_mode.value(mode, 0) + 1;
@@ -177,18 +178,16 @@ std::string breaks(const Run& run) {
   std::string words = "<p>" + plural(static_cast<std::int64_t>(log.time.size()), "bond") + " broke";
   const Scale scale = readable("J", energy);
   if (energy > 0) words += ", releasing " + number(energy * scale.factor) + " " + scale.unit;
-  return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log, run.summary.value("time", 0.0)) + "<div>" + table + words +
-                               ".</p></div></div>");
+  return section("Breaks", "<div class=\"beside\">" + breaks_over_time(log, run.summary.value("time", 0.0)) + "<div>" +
+                               table + words + ".</p></div></div>");
 }
 
 std::string deck_and_log(const Run& run) {
   std::string body;
   if (!run.deck.empty())
-    body += "<details><summary>The deck, as it was understood</summary><pre>" + escaped(run.deck) +
-            "</pre></details>";
+    body += "<details><summary>The deck, as it was understood</summary><pre>" + escaped(run.deck) + "</pre></details>";
   if (!run.log.empty())
-    body += "<details><summary>The end of the log</summary><pre>" + escaped(tail(run.log, 60)) +
-            "</pre></details>";
+    body += "<details><summary>The end of the log</summary><pre>" + escaped(tail(run.log, 60)) + "</pre></details>";
   return section("Deck and log", body);
 }
 

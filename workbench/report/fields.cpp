@@ -50,7 +50,8 @@ void each_column(const record::Frame& frame, const Found& field, const Each& eac
 std::vector<Real> values_in(const std::vector<record::Frame>& frames, const Found& field) {
   std::vector<Real> all;
   for (const record::Frame& frame : frames)
-    each_column(frame, field, [&](const auto& column) { all.insert(all.end(), column.values.begin(), column.values.end()); });
+    each_column(frame, field,
+                [&](const auto& column) { all.insert(all.end(), column.values.begin(), column.values.end()); });
   return all;
 }
 
@@ -61,20 +62,25 @@ std::string title_of(const Found& field) {
 
 std::string bar(const ColorScale& scale, const Scale& unit) {
   const auto label = [&](Real value) { return number(value * unit.factor); };
-  return fmt::format("<div class=\"colorbar\"><span>{}{}</span><i style=\"background:{}\"></i><span>{}{}{}</span></div>", scale.below ? "≤ " : "",
-                     label(scale.low), scale.css(), scale.above ? "≥ " : "", label(scale.high), unit.unit == "1" || unit.unit.empty() ? "" : " " + unit.unit);
+  return fmt::format(
+      "<div class=\"colorbar\"><span>{}{}</span><i style=\"background:{}\"></i><span>{}{}{}</span></div>",
+      scale.below ? "≤ " : "", label(scale.low), scale.css(), scale.above ? "≥ " : "", label(scale.high),
+      unit.unit == "1" || unit.unit.empty() ? "" : " " + unit.unit);
 }
 
 std::string not_numbers(std::size_t many) { return plural(static_cast<std::int64_t>(many), "value") + " not a number"; }
 
 std::string figure_of(const Stage& stage, const Found& field, const std::vector<record::Frame>& frames) {
   const std::vector<Real> values = values_in(frames, field);
-  const std::size_t odd = static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](Real v) { return !std::isfinite(v); }));
+  const std::size_t odd =
+      static_cast<std::size_t>(std::count_if(values.begin(), values.end(), [](Real v) { return !std::isfinite(v); }));
   const ColorScale scale = scale_over(values);
   const Scale unit = readable(field.unit, std::max(std::abs(scale.low), std::abs(scale.high)));
   std::string head = "<b>" + escaped(title_of(field)) + "</b>" + (field.of_bonds ? " of the bonds" : "");
   if (scale.constant()) {
-    const std::string everywhere = values.size() > odd ? number(scale.low * unit.factor) + (unit.unit == "1" ? "" : " " + unit.unit) : "no numbers";
+    const std::string everywhere = values.size() > odd
+                                       ? number(scale.low * unit.factor) + (unit.unit == "1" ? "" : " " + unit.unit)
+                                       : "no numbers";
     return "<p>" + head + ": " + everywhere + " everywhere" + (odd > 0 ? "; " + not_numbers(odd) : "") + ".</p>";
   }
   std::string out = "<figure class=\"field\"><figcaption>" + head + bar(scale, unit);
@@ -85,10 +91,14 @@ std::string figure_of(const Stage& stage, const Found& field, const std::vector<
     bool there = false;
     each_column(frame, field, [&](const auto&) { there = true; });
     if (!there) continue;
-    const Image image = draw_field(stage, view, frame, field.name, field.of_bonds, scale, width_in_pixels(stage, view, widest, tallest));
+    const Image image = draw_field(stage, view, frame, field.name, field.of_bonds, scale,
+                                   width_in_pixels(stage, view, widest, tallest));
     const auto bytes = png(image);
-    out += fmt::format("<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\"><small>step {}</small></div>",
-                       base64(bytes.data(), bytes.size()), image.width, image.height, escaped(title_of(field)), count(frame.head.step));
+    out += fmt::format(
+        "<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\"><small>step "
+        "{}</small></div>",
+        base64(bytes.data(), bytes.size()), image.width, image.height, escaped(title_of(field)),
+        count(frame.head.step));
   }
   return out + "</div></figure>\n";
 }

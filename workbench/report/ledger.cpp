@@ -14,8 +14,7 @@ namespace beadwork::report {
 namespace {
 
 bool mentions(const std::string& name, std::initializer_list<const char*> words) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* w) { return name.find(w) != std::string::npos; });
+  return std::any_of(words.begin(), words.end(), [&](const char* w) { return name.find(w) != std::string::npos; });
 }
 
 bool lists(const Json& sidecar, const std::string& key, const std::string& name) {
@@ -55,8 +54,7 @@ double total(const std::vector<const Column*>& columns, std::size_t row) {
 /// What came in since the first row, less what is there more than then.
 double residual_at(const Account& account, std::size_t row) {
   if (account.residual) return account.residual->values[row];
-  return total(account.input, row) - total(account.input, 0) -
-         (total(account.stores, row) - total(account.stores, 0));
+  return total(account.input, row) - total(account.input, 0) - (total(account.stores, row) - total(account.stores, 0));
 }
 
 double turnover(const Account& account, std::size_t rows) {
@@ -109,19 +107,15 @@ std::string table_of(const Curve& curve, const Account& account) {
   const std::size_t last = curve.table.rows() - 1;
   const double whole = turnover(account, curve.table.rows());
   std::string out =
-      "<table class=\"numbers\"><thead><tr><th>at the "
-      "end</th><th>energy</th><th>share</th></tr></thead><tbody>";
-  for (const Column* column : account.input)
-    out += row_of(column->name, "input", column->values[last], whole);
-  for (const Column* column : account.stores)
-    out += row_of(column->name, "store", column->values[last], whole);
+      "<table class=\"numbers\"><thead><tr><th>at the end</th><th>energy</th><th>share</th></tr></thead><tbody>";
+  for (const Column* column : account.input) out += row_of(column->name, "input", column->values[last], whole);
+  for (const Column* column : account.stores) out += row_of(column->name, "store", column->values[last], whole);
   out += row_of("residual", "residual", residual_at(account, last), whole) + "</tbody></table>";
   double worst = 0;
   for (std::size_t row = 0; row <= last; ++row) worst = std::max(worst, std::abs(residual_at(account, row)));
   if (whole > 0)
-    out += fmt::format(
-        "<p>Residual over the largest energy: <b>{}</b> at the end, {} at most during the run.</p>",
-        percent(std::abs(residual_at(account, last)) / whole), percent(worst / whole));
+    out += fmt::format("<p>Residual over the largest energy: <b>{}</b> at the end, {} at most during the run.</p>",
+                       percent(std::abs(residual_at(account, last)) / whole), percent(worst / whole));
   return out;
 }
 
@@ -137,8 +131,7 @@ std::string ledger(const Run& run) {
     if (!is_ledger(curve)) continue;
     const Account account = account_of(curve);
     if (account.input.empty() && account.stores.empty()) continue;
-    body += "<div class=\"beside\">" + chart_of(curve, account) + "<div>" + table_of(curve, account) +
-            "</div></div>";
+    body += "<div class=\"beside\">" + chart_of(curve, account) + "<div>" + table_of(curve, account) + "</div></div>";
   }
   const auto energy = run.summary.find("energy");
   if (body.empty() && energy != run.summary.end() && energy->is_object()) body = facts_table(*energy, "J");

@@ -19,7 +19,8 @@ constexpr Real far_outside = 1000;
 bool is_drawable(const Vec3& place) { return place.cwiseAbs().maxCoeff() <= farthest; }  // false for what is no number
 bool has_place(const record::Frame& frame, std::size_t i) {
   const Vec3& p = frame.position[i];
-  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()) && is_drawable(p) && frame.radius[i] >= smallest && frame.radius[i] <= farthest;
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()) && is_drawable(p) &&
+         frame.radius[i] >= smallest && frame.radius[i] <= farthest;
 }
 
 /// The value that a share of them does not exceed.
@@ -32,8 +33,11 @@ Real quantile(std::vector<Real> values, Real share) {
 }  // namespace
 
 std::size_t leave_out_odd(record::Frame& frame) {
-  const auto finite = [](const Vec3& u) { return std::isfinite(u.x()) && std::isfinite(u.y()) && std::isfinite(u.z()); };
-  if (!std::all_of(frame.displacement.begin(), frame.displacement.end(), [&](const Vec3& u) { return finite(u) && is_drawable(u); }))
+  const auto finite = [](const Vec3& u) {
+    return std::isfinite(u.x()) && std::isfinite(u.y()) && std::isfinite(u.z());
+  };
+  if (!std::all_of(frame.displacement.begin(), frame.displacement.end(),
+                   [&](const Vec3& u) { return finite(u) && is_drawable(u); }))
     frame.displacement.clear();  // it follows from the places
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < frame.position.size(); ++i)
@@ -46,7 +50,8 @@ std::size_t leave_out_odd(record::Frame& frame) {
       return values;
     };
     Vec3 middle;
-    for (int axis = 0; axis < 3; ++axis) middle[axis] = quantile(each([&](std::size_t row) { return frame.position[row][axis]; }), 0.5);
+    for (int axis = 0; axis < 3; ++axis)
+      middle[axis] = quantile(each([&](std::size_t row) { return frame.position[row][axis]; }), 0.5);
     const auto distance = [&](std::size_t row) { return (frame.position[row] - middle).cwiseAbs().maxCoeff(); };
     const auto size = [&](std::size_t row) { return frame.radius[row]; };
     const Real room = far_outside * (quantile(each(distance), 0.9) + quantile(each(size), 0.5));

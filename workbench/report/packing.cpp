@@ -68,7 +68,9 @@ std::string cell(const Json& value, const std::string& unit) {
 /// What the report knows in its order, then what it has never heard of, as it is.
 std::string table(const Json& report) {
   std::string rows;
-  const auto row = [&](const std::string& words, const std::string& value) { rows += fmt::format("<tr><th>{}</th><td>{}</td></tr>", escaped(words), value); };
+  const auto row = [&](const std::string& words, const std::string& value) {
+    rows += fmt::format("<tr><th>{}</th><td>{}</td></tr>", escaped(words), value);
+  };
   for (const Figure& figure : figures)
     if (const auto found = report.find(figure.key); found != report.end()) row(figure.words, cell(*found, figure.unit));
   for (const auto& [key, value] : report.items()) {
@@ -112,7 +114,8 @@ std::string packing(const Run& run) {
     if (!report.is_object()) continue;
     std::string charts;
     for (const auto& [key, value] : report.items())
-      if (value.is_object() && value.contains("edges") && value.contains("counts")) charts += histogram(spaced(key), value);
+      if (value.is_object() && value.contains("edges") && value.contains("counts"))
+        charts += histogram(spaced(key), value);
     body += "<div class=\"beside\">" + charts + "<div>" + table(report) + "</div></div>";
   }
   return section("Packing", body);

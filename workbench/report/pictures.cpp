@@ -17,8 +17,7 @@ namespace {
 constexpr int widest = 1120, tallest = 460;  ///< pixels
 
 std::string swatch(const std::string& label, Color c) {
-  return fmt::format("<span><i class=\"key disc\" style=\"background:{}\"></i>{}</span>", css(c),
-                     escaped(label));
+  return fmt::format("<span><i class=\"key disc\" style=\"background:{}\"></i>{}</span>", css(c), escaped(label));
 }
 
 /// A bar of a round length, about a sixth of the picture.
@@ -30,19 +29,17 @@ std::string scale_bar(const Camera& camera) {
       break;
     }
   const Scale scale = readable("m", length);
-  return fmt::format("<i class=\"scale\" style=\"width:{:.2f}%\"><b>{} {}</b></i>",
-                     100 * length / camera.width, number(length * scale.factor), scale.unit);
+  return fmt::format("<i class=\"scale\" style=\"width:{:.2f}%\"><b>{} {}</b></i>", 100 * length / camera.width,
+                     number(length * scale.factor), scale.unit);
 }
 
-std::string picture(const Stage& stage, const View& view, const record::Frame& frame,
-                    const std::string& name) {
+std::string picture(const Stage& stage, const View& view, const record::Frame& frame, const std::string& name) {
   // Views of one width share the bar under the last of them.
   const bool last = &view == &stage.views.back() || stage.views.back().camera.width != view.camera.width;
   const Image image = draw(stage, view, frame, width_in_pixels(stage, view, widest, tallest));
   const auto bytes = png(image);
   return fmt::format(
-      "<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" "
-      "alt=\"{}\">{}</div>",
+      "<div class=\"view\"><img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">{}</div>",
       base64(bytes.data(), bytes.size()), image.width, image.height, escaped(name + ", " + view.name),
       last ? scale_bar(view.camera) : "");
 }
@@ -53,15 +50,14 @@ std::string states_of(const Counts& n) {
     return swatch(count(static_cast<std::int64_t>(many)) + " " + kind, c);
   };
   return "<span class=\"states\">" + item("elastic", n.elastic, palette::elastic) +
-         item("softening", n.softening, palette::softening) + item("broken", n.broken, palette::broken) +
-         "</span>";
+         item("softening", n.softening, palette::softening) + item("broken", n.broken, palette::broken) + "</span>";
 }
 
 std::string figure_of(const Run& run, const Stage& stage, const record::Frame& frame, std::size_t place) {
   const std::string loading = loading_at(run, frame.head);
   const Scale scale = readable("s", frame.head.time);
-  const std::string when = "step " + count(frame.head.step) + ", time " +
-                           number(frame.head.time * scale.factor) + " " + scale.unit;
+  const std::string when =
+      "step " + count(frame.head.step) + ", time " + number(frame.head.time * scale.factor) + " " + scale.unit;
   std::string out = fmt::format(
       "<figure class=\"frame\"><figcaption><span class=\"no\">{}</span><b>{}</b> <span "
       "class=\"when\">{}</span>{}</figcaption>",
@@ -69,8 +65,7 @@ std::string figure_of(const Run& run, const Stage& stage, const record::Frame& f
       states_of(counts(stage, frame)));
   const Counts n = counts(stage, frame);
   for (const View& view : stage.views) {
-    const bool nothing_yet =
-        view.show == Show::bonds && stage.interfaces.empty() && n.softening + n.broken == 0;
+    const bool nothing_yet = view.show == Show::bonds && stage.interfaces.empty() && n.softening + n.broken == 0;
     if (!nothing_yet) out += picture(stage, view, frame, run.scene + ", " + when);
   }
   return out + "</figure>\n";
@@ -99,11 +94,12 @@ std::vector<record::Frame> read_frames(Run& run, const std::vector<record::Frame
     try {
       frames.push_back(run.recorded->read(head));
       if (const auto odd = static_cast<std::int64_t>(leave_out_odd(frames.back())); odd > 0)
-        run.notes.push_back("In the frame of step " + count(head.step) + ", " + plural(odd, "element") + (odd == 1 ? " has" : " have") +
-                            " no place or size that can be drawn (no number, infinite, or far outside), and " + (odd == 1 ? "was" : "were") + " left out.");
+        run.notes.push_back("In the frame of step " + count(head.step) + ", " + plural(odd, "element") +
+                            (odd == 1 ? " has" : " have") +
+                            " no place or size that can be drawn (no number, infinite, or far outside), and " +
+                            (odd == 1 ? "was" : "were") + " left out.");
     } catch (const std::exception& problem) {
-      run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() +
-                          ").");
+      run.notes.push_back("The frame of step " + count(head.step) + " cannot be read (" + problem.what() + ").");
     }
   }
   return frames;
@@ -113,7 +109,8 @@ std::map<std::string, std::vector<std::int64_t>> sets_of(Run& run) {
   try {
     return run.recorded->sets();
   } catch (const std::exception& problem) {
-    run.notes.push_back("The sets of elements cannot be read, and share one colour (" + std::string(problem.what()) + ").");
+    run.notes.push_back("The sets of elements cannot be read, and share one colour (" + std::string(problem.what()) +
+                        ").");
     return {};
   }
 }
@@ -147,8 +144,7 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, c
   const record::Frame rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
   for (record::Frame& frame : frames) complete_displacement(frame, rest);
   const Stage stage = set_up(rest, frames, sets_of(run), wanted.empty() ? wanted_view(frames) : wanted);
-  const bool bonds =
-      std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
+  const bool bonds = std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
   const double shape = stage.views.front().camera.width / stage.views.front().camera.height;
   std::string body =
       explanation(stage, bonds) + (shape > 2.2 ? "<div class=\"frames wide\">" : "<div class=\"frames\">");

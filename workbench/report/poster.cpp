@@ -26,8 +26,7 @@ Image stacked(const std::vector<Image>& images, int gap) {
   for (const Image& image : images) {
     const std::size_t left = bytes_of((out.width - image.width) / 2);
     for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
-      std::copy_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(y * bytes_of(image.width)),
-                  bytes_of(image.width),
+      std::copy_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(y * bytes_of(image.width)), bytes_of(image.width),
                   out.rgba.begin() + static_cast<std::ptrdiff_t>((row + y) * bytes_of(out.width) + left));
     row += static_cast<std::size_t>(image.height + gap);
   }
@@ -37,13 +36,11 @@ Image stacked(const std::vector<Image>& images, int gap) {
 }  // namespace
 }  // namespace report
 
-void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file,
-                   std::size_t frames) {
+void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file, std::size_t frames) {
   using namespace report;
   const record::FrameReader reader(run_folder / "run.h5");
   const auto heads = chosen(reader.frames(), frames);
-  if (heads.empty())
-    throw MachineFailure("'" + (run_folder / "run.h5").string() + "' holds no frames to draw");
+  if (heads.empty()) throw MachineFailure("'" + (run_folder / "run.h5").string() + "' holds no frames to draw");
   const record::Frame first = reader.read(reader.frames().front());
   std::vector<record::Frame> shown;
   for (const record::FrameHead& head : heads) {

@@ -58,19 +58,24 @@ std::string quality(const Run& run) {
       std::string said = entry.is_string() ? entry.get<std::string>() : "";
       if (entry.is_object() && entry.contains("elements") && entry.contains("free_to") && entry["free_to"].is_array()) {
         said = "a body of " + json_text(entry["elements"]) + " elements was free to";
-        for (const Json& motion : entry["free_to"]) said += (said.ends_with("to") ? " " : ", ") + (motion.is_string() ? motion.get<std::string>() : json_text(motion));
+        for (const Json& motion : entry["free_to"])
+          said += (said.ends_with("to") ? " " : ", ") +
+                  (motion.is_string() ? motion.get<std::string>() : json_text(motion));
       }
       if (!said.empty()) remarks += "<li>" + escaped(said) + "</li>";
     }
   }
-  const std::string rows = row(*found, "residual_over_work", "residual of the energy balance over the largest work") +
-                           row(*found, "lost_at_breaks_over_work", "energy that breaks lost by the size of the step, over the largest work") +
-                           row(*found, "kinetic_over_stored", "kinetic over stored energy, before anything breaks") +
-                           row(*found, "kinetic_over_stored_cracking", "kinetic over stored energy, while it cracks") +
-                           row(*found, "reactions_imbalance", "prescribed forces out of balance, before anything breaks") +
-                           row(*found, "reactions_imbalance_cracking", "prescribed forces out of balance, while it cracks") +
-                           row(*found, "free_motion", "farthest motion that nothing holds", true);
-  return section("Quality", "<table class=\"facts\"><tbody>" + rows + "</tbody></table>" + (remarks.empty() ? "" : "<ul>" + remarks + "</ul>"));
+  const std::string rows =
+      row(*found, "residual_over_work", "residual of the energy balance over the largest work") +
+      row(*found, "lost_at_breaks_over_work",
+          "energy that breaks lost by the size of the step, over the largest work") +
+      row(*found, "kinetic_over_stored", "kinetic over stored energy, before anything breaks") +
+      row(*found, "kinetic_over_stored_cracking", "kinetic over stored energy, while it cracks") +
+      row(*found, "reactions_imbalance", "prescribed forces out of balance, before anything breaks") +
+      row(*found, "reactions_imbalance_cracking", "prescribed forces out of balance, while it cracks") +
+      row(*found, "free_motion", "farthest motion that nothing holds", true);
+  return section("Quality", "<table class=\"facts\"><tbody>" + rows + "</tbody></table>" +
+                                (remarks.empty() ? "" : "<ul>" + remarks + "</ul>"));
 }
 
 }  // namespace beadwork::report

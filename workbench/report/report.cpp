@@ -78,7 +78,8 @@ std::string page_of(Run& run, const std::string& view) {
   return page_with(escaped(run.scene) + " – Beadwork", header(run), notes(run) + body);
 }
 
-// A folder without a list may be one of an earlier version, or a copy: there a page of ours is known by what it says of itself.
+// A folder without a list may be one of an earlier version, or a copy: there a page of ours is known by what it says of
+// itself.
 bool is_ours(const std::filesystem::path& page) {
   constexpr std::uintmax_t longest = std::uintmax_t{1} << 31;
   try {
@@ -96,7 +97,8 @@ std::string put_page(const std::filesystem::path& folder, Manifest::Of of, const
   if (auto list = Manifest::read(folder, of))
     list->claim("report.html");
   else if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) && !is_ours(file))
-    throw DeckFailure("'" + file.string() + "' is there already, and is no report of Beadwork: it is left alone. Rename it");
+    throw DeckFailure("'" + file.string() +
+                      "' is there already, and is no report of Beadwork: it is left alone. Rename it");
   write_atomically(file, page);
   return file.string();
 }

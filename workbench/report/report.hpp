@@ -14,8 +14,7 @@ std::string write_report(const std::filesystem::path& run_folder, const std::str
 
 /// One PNG of the specimen for a page of text: a few frames below each other, without words. Needs a readable
 /// run.h5 with frames; throws MachineFailure otherwise.
-void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file,
-                   std::size_t frames = 3);
+void write_picture(const std::filesystem::path& run_folder, const std::filesystem::path& file, std::size_t frames = 3);
 
 /// The same of a batch: its table, and the curves of its runs laid over one another.
 std::string write_batch_report(const std::filesystem::path& batch_folder);

@@ -62,7 +62,8 @@ void note_dropped(const Table& table, const std::string& name, std::vector<std::
                     (table.dropped_rows == 1 ? " was" : " were") + " cut off or not numbers, and left out.");
   if (table.odd_numbers > 0)
     notes.push_back("In curves/" + name + ", " + plural(table.odd_numbers, "number") +
-                    (table.odd_numbers == 1 ? " is" : " are") + " infinite, undefined or too large to be drawn: gaps in the curve.");
+                    (table.odd_numbers == 1 ? " is" : " are") +
+                    " infinite, undefined or too large to be drawn: gaps in the curve.");
 }
 
 /// A reference is named by its file, or by {"file": ..., "label": ...}.
@@ -74,8 +75,7 @@ void read_references(Curve& curve, const fs::path& folder, std::vector<std::stri
     const fs::path path = folder / "references" / fs::path(file).filename();
     Reference reference{text_of(entry, "label"), parse_table(text_of_file(path, longest_text, notes), false)};
     if (reference.table.columns.size() < 2 || reference.table.rows() == 0) {
-      notes.push_back("The reference curves/references/" + path.filename().string() +
-                      " is missing or empty.");
+      notes.push_back("The reference curves/references/" + path.filename().string() + " is missing or empty.");
       continue;
     }
     note_dropped(reference.table, "references/" + path.filename().string(), notes);
@@ -112,8 +112,7 @@ void read_curves(Run& run) {
   }
   std::stable_sort(run.curves.begin(), run.curves.end(),
                    [](const Curve& a, const Curve& b) { return place_of(a) < place_of(b); });
-  if (run.curves.empty())
-    run.notes.push_back("There are no curves: no watcher wrote any, or the run ended before.");
+  if (run.curves.empty()) run.notes.push_back("There are no curves: no watcher wrote any, or the run ended before.");
 }
 
 void read_record(Run& run) {
@@ -130,8 +129,8 @@ void read_record(Run& run) {
     return;
   }
   if (const int lost = run.recorded->unreadable_frames(); lost > 0)
-    run.notes.push_back(plural(lost, "frame") + " of run.h5 cannot be read, and " +
-                        (lost == 1 ? "was" : "were") + " left out.");
+    run.notes.push_back(plural(lost, "frame") + " of run.h5 cannot be read, and " + (lost == 1 ? "was" : "were") +
+                        " left out.");
 }
 
 /// A run that was killed has no summary, but its record knows what it was.
@@ -166,8 +165,8 @@ void read_status(Run& run) {
   if (!run.status.empty() && run.status != "running") return;
   run.status = "unfinished";
   run.notes.emplace_back(
-      "The run has not said how it ended: it is still going on, or it was killed. What follows is what it "
-      "had written.");
+      "The run has not said how it ended: it is still going on, or it was killed. What follows is what it had "
+      "written.");
 }
 
 /// What the run itself said of its record.
@@ -199,14 +198,11 @@ Run open_curves(const fs::path& folder) {
   const bool there = fs::is_directory(folder, error);
   if (error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels)
     throw DeckFailure("cannot use '" + folder.string() + "': " + error.message());
-  if (!there)
-    throw DeckFailure("there is no folder '" + folder.string() + "' to report on");
+  if (!there) throw DeckFailure("there is no folder '" + folder.string() + "' to report on");
   const auto written = {"summary.json", "resolved.xml", "run.log", "run.h5"};
-  if (std::none_of(written.begin(), written.end(),
-                   [&](const char* name) { return stands(folder / name); }))
-    throw DeckFailure(
-        "'" + folder.string() +
-        "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, run.h5");
+  if (std::none_of(written.begin(), written.end(), [&](const char* name) { return stands(folder / name); }))
+    throw DeckFailure("'" + folder.string() +
+                      "' is not the folder of a run: it holds none of summary.json, resolved.xml, run.log, run.h5");
   Run run;
   run.folder = folder;
   run.summary = read_json(folder / "summary.json", run.notes);

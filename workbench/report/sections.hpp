@@ -22,8 +22,8 @@ std::string deck_and_log(const Run&);
 /// The curves of one name of several runs, laid over one another in a chart for each unit. Each run has its label.
 std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of_runs);
 
-/// Pictures of the frames `pictured`, seen along the axis `wanted` (x, y, z; empty: as the frames say, or as shows most); what cannot
-/// be read is added to the run's notes.
+/// Pictures of the frames `pictured`, seen along the axis `wanted` (x, y, z; empty: as the frames say, or as shows
+/// most); what cannot be read is added to the run's notes.
 std::string pictures(Run&, const std::vector<record::FrameHead>& pictured, const std::string& wanted);
 struct Stage;
 /// What the frames recorded besides places, in colours with their bar.
@@ -39,7 +39,8 @@ bool is_ledger(const Curve&);
 /// The row of the table nearest to the frame, by time or else by step.
 std::size_t row_at(const Table&, const record::FrameHead&);
 
-/// Writes the page as report.html, which the list of the folder then names. DeckFailure if somebody else's page stands there.
+/// Writes the page as report.html, which the list of the folder then names. DeckFailure if somebody else's page stands
+/// there.
 std::string put_page(const std::filesystem::path& folder, Manifest::Of of, const std::string& page);
 /// The whole page; title and texts are HTML already.
 std::string page_with(const std::string& title, const std::string& head, const std::string& body);

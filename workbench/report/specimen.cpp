@@ -20,9 +20,8 @@ std::vector<std::string> find_interfaces(const std::vector<record::Frame>& shown
   std::vector<std::string> names;
   for (const record::Frame& frame : shown)
     for (const record::Bonds& bonds : frame.bonds) {
-      const bool softens =
-          bonds.has_damage || bonds.law.starts_with("cohesive-contact") ||
-          std::find(bonds.state.begin(), bonds.state.end(), State::softening) != bonds.state.end();
+      const bool softens = bonds.has_damage || bonds.law.starts_with("cohesive-contact") ||
+                           std::find(bonds.state.begin(), bonds.state.end(), State::softening) != bonds.state.end();
       const bool surface = bonds.ends.size() < frame.position.size();
       if (softens && surface && std::find(names.begin(), names.end(), bonds.family) == names.end())
         names.push_back(bonds.family);
@@ -69,8 +68,7 @@ Box stage_box(const Stage& stage, const Box& rest, const std::vector<record::Fra
 }
 
 /// The smallest set that holds an element gives its colour: a grip shows on the ply that it holds.
-void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64_t>>& sets,
-                std::size_t elements) {
+void color_sets(Stage& stage, const std::map<std::string, std::vector<std::int64_t>>& sets, std::size_t elements) {
   std::vector<const std::pair<const std::string, std::vector<std::int64_t>>*> by_size;
   for (const auto& set : sets)
     if (!set.second.empty()) by_size.push_back(&set);
@@ -95,16 +93,13 @@ std::vector<State> worst_states(const record::Frame& frame) {
       for (const int side : {0, 1}) {
         const auto here = static_cast<std::size_t>(bonds.ends[b][static_cast<std::size_t>(side)]);
         const auto there = static_cast<std::size_t>(bonds.ends[b][static_cast<std::size_t>(1 - side)]);
-        if (frame.radius[here] < 2.5 * frame.radius[there])
-          worst[here] = std::max(worst[here], bonds.state[b]);
+        if (frame.radius[here] < 2.5 * frame.radius[there]) worst[here] = std::max(worst[here], bonds.state[b]);
       }
   return worst;
 }
 
 Color color_of(State state) {
-  return state == State::broken      ? palette::broken
-         : state == State::softening ? palette::softening
-                                     : palette::elastic;
+  return state == State::broken ? palette::broken : state == State::softening ? palette::softening : palette::elastic;
 }
 
 Color base_color(const Stage& stage, std::int64_t id) {
@@ -135,14 +130,13 @@ void draw_bodies(Canvas& canvas, const Stage& stage, const record::Frame& frame,
   const auto place = [&](std::size_t i) { return magnified(frame, i, stage.magnification); };
   for (const std::size_t i : front_to_back(frame, place, toward)) {
     const Color base = base_color(stage, frame.id[i]);
-    canvas.sphere(place(i), frame.radius[i],
-                  worst[i] == State::intact ? base : mix(base, color_of(worst[i]), 0.88F));
+    canvas.sphere(place(i), frame.radius[i], worst[i] == State::intact ? base : mix(base, color_of(worst[i]), 0.88F));
   }
   canvas.darken_hollows(4 * mean_radius(frame), 0.42F);
 }
 
-void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Index, 2>& ends,
-               const Vec3& toward, Color c) {
+void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Index, 2>& ends, const Vec3& toward,
+               Color c) {
   const auto i = static_cast<std::size_t>(ends[0]), j = static_cast<std::size_t>(ends[1]);
   const Vec3 a = at_rest(frame, i), b = at_rest(frame, j);
   const Real smaller = std::min(frame.radius[i], frame.radius[j]);
@@ -177,7 +171,8 @@ void complete_displacement(record::Frame& frame, const record::Frame& first) {
   std::vector<Vec3> displacement;  // apart, as `first` may be this very frame
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     const auto found = row.find(frame.id[i]);
-    displacement.push_back(found == row.end() ? Vec3(Vec3::Zero()) : Vec3(frame.position[i] - at_rest(first, found->second)));
+    displacement.push_back(found == row.end() ? Vec3(Vec3::Zero())
+                                              : Vec3(frame.position[i] - at_rest(first, found->second)));
   }
   frame.displacement = std::move(displacement);
 }
@@ -195,14 +190,13 @@ Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown
   const Box around = stage_box(stage, rest, shown);
   stage.views.push_back(view_along(Show::bodies, name, bodies, around, margin));
   if (bonds >= 0) {
-    View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface",
-                           bonds, rest, margin);
+    View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface", bonds,
+                           rest, margin);
     // One scale above the other where both have the same axis to the right, so that fronts stand in line.
     View& side = stage.views.front();
     if (plan.camera.right == side.camera.right) {
       plan.camera.width = side.camera.width;
-      plan.camera.centre +=
-          (side.camera.centre - plan.camera.centre).dot(plan.camera.right) * plan.camera.right;
+      plan.camera.centre += (side.camera.centre - plan.camera.centre).dot(plan.camera.right) * plan.camera.right;
     }
     stage.views.push_back(plan);
   }
@@ -257,8 +251,8 @@ Image draw(const Stage& stage, const View& view, const record::Frame& frame, int
   return canvas.image();
 }
 
-Image draw_field(const Stage& stage, const View& view, const record::Frame& frame, const std::string& field, bool of_bonds,
-                 const ColorScale& scale, int width) {
+Image draw_field(const Stage& stage, const View& view, const record::Frame& frame, const std::string& field,
+                 bool of_bonds, const ColorScale& scale, int width) {
   Canvas canvas(cropped(stage, view, frame), width);
   const Vec3 toward = view.camera.right.cross(view.camera.up);
   const auto place = [&](std::size_t i) { return magnified(frame, i, stage.magnification); };
@@ -278,7 +272,8 @@ Image draw_field(const Stage& stage, const View& view, const record::Frame& fram
     for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
       const auto i = static_cast<std::size_t>(bonds.ends[b][0]), j = static_cast<std::size_t>(bonds.ends[b][1]);
       const Vec3 from = place(i), to = place(j);
-      if (finite(from) && finite(to)) canvas.segment(from, to, 0.5 * std::min(frame.radius[i], frame.radius[j]), scale(column->values[b]));
+      if (finite(from) && finite(to))
+        canvas.segment(from, to, 0.5 * std::min(frame.radius[i], frame.radius[j]), scale(column->values[b]));
     }
   }
   return canvas.image();

@@ -51,7 +51,8 @@ struct Counts {
   std::size_t elastic = 0, softening = 0, broken = 0;
 };
 
-/// The stage for frames that show one specimen; `first` is its state of rest, `wanted` the axis to look along (may be empty).
+/// The stage for frames that show one specimen; `first` is its state of rest, `wanted` the axis to look along (may be
+/// empty).
 Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
              const std::map<std::string, std::vector<std::int64_t>>& sets, const std::string& wanted);
 /// The axis that the newest of these frames wants to be looked along; empty if none says.
@@ -65,13 +66,14 @@ Camera cropped(const Stage&, const View&, const record::Frame&);
 
 Image draw(const Stage&, const View&, const record::Frame&, int width);
 /// The same view with a recorded field in colours: of the elements, or of the bonds as segments over a faint specimen.
-Image draw_field(const Stage&, const View&, const record::Frame&, const std::string& field, bool of_bonds, const ColorScale&, int width);
+Image draw_field(const Stage&, const View&, const record::Frame&, const std::string& field, bool of_bonds,
+                 const ColorScale&, int width);
 
 /// Pixels for the view when the largest view of the stage is to fit into the given room: all have one scale.
 int width_in_pixels(const Stage&, const View&, int widest, int tallest);
 
-/// Takes what cannot be drawn out of a frame: elements whose place or size is no number, infinite or far outside of all others lose
-/// both, and values of fields that are too large become no numbers. Returns how many elements.
+/// Takes what cannot be drawn out of a frame: elements whose place or size is no number, infinite or far outside of all
+/// others lose both, and values of fields that are too large become no numbers. Returns how many elements.
 std::size_t leave_out_odd(record::Frame&);
 
 /// Where a frame records positions only: displacements from those of the same elements in the first frame.

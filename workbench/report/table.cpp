@@ -30,9 +30,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 Column heading(std::string_view cell) {
   const auto open = cell.rfind('[');
   if (open == std::string_view::npos || !cell.ends_with(']')) return {std::string(cell), "1", {}};
-  return {std::string(trimmed(cell.substr(0, open))),
-          std::string(cell.substr(open + 1, cell.size() - open - 2)),
-          {}};
+  return {std::string(trimmed(cell.substr(0, open))), std::string(cell.substr(open + 1, cell.size() - open - 2)), {}};
 }
 
 std::optional<double> value_of(std::string_view cell) {
@@ -65,8 +63,7 @@ bool append_row(Table& table, std::string_view line) {
 }  // namespace
 
 const Column* Table::find(const std::string& name) const {
-  const auto found =
-      std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
   return found == columns.end() ? nullptr : &*found;
 }
 

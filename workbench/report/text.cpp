@@ -23,8 +23,7 @@ std::string grouped(std::string digits) {
 }
 
 std::string superscript(int exponent) {
-  static constexpr std::array<std::string_view, 10> digit = {"⁰", "¹", "²", "³", "⁴",
-                                                             "⁵", "⁶", "⁷", "⁸", "⁹"};
+  static constexpr std::array<std::string_view, 10> digit = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string out = exponent < 0 ? "⁻" : "";
   for (const char c : std::to_string(std::abs(exponent))) out += digit[static_cast<std::size_t>(c - '0')];
   return out;
@@ -85,13 +84,10 @@ std::string duration(double seconds) {
 
 std::string percent(double share) {
   if (!std::isfinite(share)) return "–";
-  return fmt::format("{}{:.{}f} %", share < 0 ? "−" : "", 100 * std::abs(share),
-                     std::abs(share) < 0.1 ? 2 : 1);
+  return fmt::format("{}{:.{}f} %", share < 0 ? "−" : "", 100 * std::abs(share), std::abs(share) < 0.1 ? 2 : 1);
 }
 
-std::string plural(std::int64_t n, const std::string& one) {
-  return count(n) + " " + one + (n == 1 ? "" : "s");
-}
+std::string plural(std::int64_t n, const std::string& one) { return count(n) + " " + one + (n == 1 ? "" : "s"); }
 
 std::string spaced(std::string_view name) {
   std::string out(name);
@@ -107,8 +103,7 @@ Scale readable(const std::string& unit, double largest) {
   };
   static constexpr std::array<Prefix, 8> prefixes = {
       {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}}};
-  if (std::find(scalable.begin(), scalable.end(), unit) == scalable.end() || !std::isfinite(largest) ||
-      largest <= 0)
+  if (std::find(scalable.begin(), scalable.end(), unit) == scalable.end() || !std::isfinite(largest) || largest <= 0)
     return {1, unit};
   const bool large_time = unit == "s" && largest >= 1;  // nobody reads kiloseconds
   if (large_time || (largest >= 0.5 && largest < 2000)) return {1, unit};
@@ -123,8 +118,7 @@ std::string with_unit(const std::string& name, const std::string& unit) {
 }
 
 std::string base64(const void* data, std::size_t size) {
-  static constexpr std::string_view letters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  static constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const auto* bytes = static_cast<const unsigned char*>(data);
   std::string out;
   out.reserve((size + 2) / 3 * 4);

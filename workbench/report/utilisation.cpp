@@ -33,10 +33,13 @@ std::string row(const Json& use) {
     for (const Json& value : *place)
       if (value.is_number()) size = std::max(size, std::abs(value.get<double>()));
   const Scale metres = readable("m", size);
-  std::string cells = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escaped(text_of(use, "of")), escaped(spaced(text_of(use, "mode"))), number(largest));
+  std::string cells = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escaped(text_of(use, "of")),
+                                  escaped(spaced(text_of(use, "mode"))), number(largest));
   if (!use.contains("bond")) return "<tr>" + cells + "<td>no bond was under load</td></tr>";
-  cells += fmt::format("<td>bond {} between elements {}, at ({}) {}, step {}, {} {}</td>", number(real_of(use, "bond"), 9), list_of(use, "elements", 1),
-                       list_of(use, "place", metres.factor), metres.unit, number(real_of(use, "step"), 9), number(time * seconds.factor), seconds.unit);
+  cells +=
+      fmt::format("<td>bond {} between elements {}, at ({}) {}, step {}, {} {}</td>", number(real_of(use, "bond"), 9),
+                  list_of(use, "elements", 1), list_of(use, "place", metres.factor), metres.unit,
+                  number(real_of(use, "step"), 9), number(time * seconds.factor), seconds.unit);
   return "<tr>" + cells + "</tr>";
 }
 
@@ -50,8 +53,9 @@ std::string utilisation(const Run& run) {
     if (use.is_object()) rows += row(use);
   if (rows.empty()) return "";
   return section("Utilisation",
-                 "<p>What each criterion has found over its strength, at its largest: bonds break from 1 on.</p><table class=\"facts\"><thead><tr><th>bonds</th>"
-                 "<th>criterion</th><th>largest</th><th>where and when</th></tr></thead><tbody>" +
+                 "<p>What each criterion has found over its strength, at its largest: bonds break from 1 on.</p><table "
+                 "class=\"facts\"><thead><tr><th>bonds</th><th>criterion</th><th>largest</th><th>where and "
+                 "when</th></tr></thead><tbody>" +
                      rows + "</tbody></table>");
 }
 

@@ -52,7 +52,8 @@ Vec3 at_rest(const record::Frame& frame, std::size_t i) {
 }
 
 Vec3 magnified(const record::Frame& frame, std::size_t i, Real factor) {
-  return frame.displacement.empty() ? frame.position[i] : Vec3(frame.position[i] + (factor - 1) * frame.displacement[i]);
+  return frame.displacement.empty() ? frame.position[i]
+                                    : Vec3(frame.position[i] + (factor - 1) * frame.displacement[i]);
 }
 
 Box box_at_rest(const record::Frame& frame) {

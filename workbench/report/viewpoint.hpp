@@ -33,9 +33,9 @@ struct Viewpoint {
   int bodies, bonds;
   std::string name;
 };
-/// A plane of weak bonds (an interface, a crack) is seen from its edge and from above. Around a fibre the bonds of the interface
-/// have no direction along it: the picture looks down the fibre. Breaks that are few or spread over the specimen say nothing: the
-/// broadest face is shown. `wanted` (x, y or z; may be empty) goes before all that.
+/// A plane of weak bonds (an interface, a crack) is seen from its edge and from above. Around a fibre the bonds of the
+/// interface have no direction along it: the picture looks down the fibre. Breaks that are few or spread over the
+/// specimen say nothing: the broadest face is shown. `wanted` (x, y or z; may be empty) goes before all that.
 Viewpoint choose_viewpoint(const Weak&, const Vec3& size, const std::string& wanted);
 
 /// Looks along an axis: right is the longer of the two axes in the picture; z stands up wherever it is not right.

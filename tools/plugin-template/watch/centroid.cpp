@@ -16,10 +16,10 @@ class Centroid final : public Watcher {
     Vec3 mean = zero<Vec3>();
     for (const Index row : members) mean += position[row] / static_cast<Real>(members.size());
     CurvePlan plan;
-    plan.name = *name;                                  // curves/centroid.csv
+    plan.name = *name;                                    // curves/centroid.csv
     plan.columns = {{"x", "m"}, {"y", "m"}, {"z", "m"}};  // behind 'step' and 'time', which every curve has
     plan.title = "Mean place of " + *of;
-    plan.y = {"x", "y", "z"};                           // what the report draws; against time, as no plan.x is given
+    plan.y = {"x", "y", "z"};  // what the report draws; against time, as no plan.x is given
     sight.curve(plan).row(std::array{mean.x(), mean.y(), mean.z()});
   }
 };
