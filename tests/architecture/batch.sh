@@ -139,11 +139,11 @@ expect 2 "$beadwork" batch "$deck" --out "$work/bad" --vary E=1,2 --vary E=3
 echo "interrupted runs go on"
 "$beadwork" batch "$deck" --out "$work/long" --vary 'E=50 GPa,100 GPa' --jobs 2 --set n=1000000000 >"$work/output" 2>&1 &
 batch=$!
+has_gone_on() { [ "$(cat "$work/long/$1/curves/force.csv" 2>/dev/null | wc -l)" -gt 3 ]; } # to its third look at least
 for _ in $(seq 600); do
-  [ -f "$work/long/E=50-GPa/curves/force.csv" ] && [ -f "$work/long/E=100-GPa/curves/force.csv" ] && break
+  has_gone_on E=50-GPa && has_gone_on E=100-GPa && break
   sleep 0.1
 done
-sleep 0.5
 kill -TERM $batch
 got=0
 wait $batch || got=$?

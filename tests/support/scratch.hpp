@@ -72,6 +72,19 @@ void kill_during(const Work& work, unsigned microseconds) {
   ::waitpid(child, nullptr, 0);
 }
 
+/// Does `work` in a process of its own: whether SIGKILL ended it, which is for `work` to send.
+template <class Work>
+bool is_killed(const Work& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    work();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
 /// What the failure of this type says; empty if none was thrown.
 template <class Failure, class Work>
 std::string message_of(const Work& work) {

@@ -329,7 +329,7 @@ TEST(Checkpoint, a_kill_at_any_moment_leaves_a_whole_checkpoint) {
   save_checkpoint(file, bar.domain, some_meta(0));
   std::int64_t newest = 0;
   // On a slow machine the first kills come before anything is written: go on until some have come in the midst of it.
-  for (unsigned trial = 0; trial < 30 || (newest < 6 && trial < 120); ++trial) {
+  for (unsigned trial = 0; trial < 30 || newest < 6; ++trial) {
     kill_during(
         [&] {
           for (std::int64_t step = newest + 1;; ++step) {
@@ -344,7 +344,6 @@ TEST(Checkpoint, a_kill_at_any_moment_leaves_a_whole_checkpoint) {
     EXPECT_EQ(back.domain.scene().column("work").view<Real>()[0], static_cast<Real>(newest)) << "trial " << trial;
     EXPECT_EQ(back.domain.size(), 5000);
   }
-  EXPECT_GT(newest, 5) << "the kills came before anything was written";
 }
 
 TEST(Checkpoint, a_full_disk_leaves_the_former_checkpoint_and_is_named) {

@@ -537,6 +537,12 @@ TEST(PackingReport, tells_touching_contacts_from_near_ones_and_measures_overlap)
   EXPECT_NEAR(r.fabric[2], 0.5, 1e-6);
 }
 
+TEST(PackingReport, tells_the_seconds_that_the_packing_took) {
+  Packing p = packing_of(Box{{-9, -9, -9}, {9, 9, 9}}, {}, {{0, 0, 0}}, {1});
+  p.seconds = 2.5;
+  EXPECT_EQ(report(p).seconds, 2.5);
+}
+
 TEST(PackingReport, has_a_histogram_that_holds_every_element) {
   const PackingReport r = report(example());
   EXPECT_EQ(r.histogram.size() + 1, r.histogram_edges.size());
@@ -545,7 +551,6 @@ TEST(PackingReport, has_a_histogram_that_holds_every_element) {
   EXPECT_EQ(sum, 3000u);
   EXPECT_EQ(r.count, 3000u);
   EXPECT_EQ(r.seed, 1u);
-  EXPECT_GT(r.seconds, 0);
   EXPECT_GT(r.wall_contacts, 0.3);
 }
 

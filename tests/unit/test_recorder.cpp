@@ -297,7 +297,7 @@ TEST(Recorder, a_kill_at_any_moment_leaves_a_record_that_can_be_read_and_continu
   std::int64_t newest = 0;
   run.frame(newest);
   // On a slow machine the first kills come before anything is written: go on until some have come in the midst of it.
-  for (unsigned trial = 0; trial < 30 || (newest < 6 && trial < 120); ++trial) {
+  for (unsigned trial = 0; trial < 30 || newest < 6; ++trial) {
     kill_during(
         [&] {
           run.go_on_from(newest);
@@ -316,7 +316,6 @@ TEST(Recorder, a_kill_at_any_moment_leaves_a_record_that_can_be_read_and_continu
       ASSERT_EQ(steps[i], static_cast<std::int64_t>(i)) << "trial " << trial;
     newest = steps.back();
   }
-  EXPECT_GT(newest, 5) << "the kills came before anything was written";
 }
 
 TEST(Recorder, a_full_disk_is_named_and_leaves_the_frames_before) {
