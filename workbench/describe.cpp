@@ -15,9 +15,9 @@ namespace beadwork {
 
 Manual manual_of(const Catalogue& catalogue) {
   Manual manual;
-  for (const Kind kind : all_kinds)
-    for (const std::string& tag : catalogue.tags(kind))
-      manual.push_back({kind, tag, catalogue.find(kind, tag)->about, catalogue.make(kind, tag)});
+  for (const KindRow& row : all_kinds)
+    for (const std::string& tag : catalogue.tags(row.kind))
+      manual.push_back({row.kind, tag, catalogue.find(row.kind, tag)->about, catalogue.make(row.kind, tag)});
   return manual;
 }
 
@@ -30,23 +30,6 @@ Manual pick(Manual manual, const std::string& wanted) {
   std::erase_if(manual, [&](const Described& each) { return each.tag != wanted && each.path() != wanted; });
   if (manual.empty()) throw DeckFailure(fmt::format("error: no plugin '{}'{}", wanted, did_you_mean(wanted, known)));
   return manual;
-}
-
-const char* section_doc(Kind kind) {
-  switch (kind) {
-    case Kind::fill: return "Adds elements and names sets of them. Runs once, before all else, in the deck's order.";
-    case Kind::bond:
-      return "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; "
-             "acts at every evaluation of the forces.";
-    case Kind::load: return "Moves or holds sets of elements, pushes them, or gives them a velocity to start with.";
-    case Kind::move: return "Advances the scene by one step. A stage has exactly one.";
-    case Kind::fail: return "Decides, after the forces, which bonds break.";
-    case Kind::derive:
-      return "Provides a field that somebody reads. Never stands in a deck: it is added by itself, and runs only in "
-             "the steps in which its field is read.";
-    case Kind::watch: return "Looks at the scene every few steps and records. Changes nothing.";
-  }
-  return "";
 }
 
 const char* use_word(Kind kind, Verb verb) {

@@ -32,7 +32,6 @@ std::string as_json(const Manual& manual);
 std::string as_xsd(const Manual& manual);
 
 /// When the plugins of a section run, in a sentence.
-const char* section_doc(Kind kind);
 /// What a plugin does with a field, in a word: "reads", "adds", "offers", "fills", "keeps".
 const char* use_word(Kind kind, Verb verb);
 /// "quantity in Pa", "one of each, mean": the type of a parameter with its unit.

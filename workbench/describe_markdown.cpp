@@ -129,7 +129,7 @@ std::string as_markdown(const Manual& manual) {
   const char* section = nullptr;
   for (const Described& each : manual) {
     if (section != kind_name(each.kind))
-      text += fmt::format("\n## `<{}>`\n\n{}\n", kind_name(each.kind), section_doc(each.kind));
+      text += fmt::format("\n## `<{}>`\n\n{}\n", kind_name(each.kind), row_of(each.kind).doc);
     section = kind_name(each.kind);
     text += "\n" + chapter(each);
   }

@@ -84,7 +84,7 @@ const char* const include = "      <xs:element name=\"include\" type=\"include\"
 
 std::string section_type(Kind kind, const Manual& manual) {
   std::string text = fmt::format("  <xs:complexType name=\"{}\">\n{}    {}\n{}", kind_name(kind),
-                                 doc_of(section_doc(kind), "    "), any_number, include);
+                                 doc_of(row_of(kind).doc, "    "), any_number, include);
   for (const Described& each : manual)
     if (each.kind == kind)
       text += fmt::format("      <xs:element name=\"{0}\" type=\"{1}.{0}\">\n{2}      </xs:element>\n", each.tag,
@@ -100,9 +100,9 @@ std::string plain_attribute(const std::string& name, const std::string& type, bo
 std::string sections(const std::vector<Kind>& kinds, bool inside_stage) {
   std::string text = fmt::format("    {}\n{}", any_number, include);
   for (const Kind kind : kinds)
-    if (!(inside_stage && kind == Kind::fill))
+    if (row_of(kind).in_stages || !inside_stage)
       text += fmt::format("      <xs:element name=\"{0}\" type=\"{0}\">\n{1}      </xs:element>\n", kind_name(kind),
-                          doc_of(section_doc(kind), "        "));
+                          doc_of(row_of(kind).doc, "        "));
   if (!inside_stage)
     text +=
         "      <xs:element name=\"parameter\" type=\"parameter\"/>\n      <xs:element name=\"stage\" "
@@ -135,16 +135,14 @@ std::string frame_types(const std::vector<Kind>& kinds) {
 
 std::string as_xsd(const Manual& manual) {
   std::vector<Kind> kinds;
-  for (const Kind kind : all_kinds)
-    if (kind != Kind::derive) kinds.push_back(kind);
+  for (const KindRow& row : all_kinds) kinds.push_back(row.kind);
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<!-- Made by beadwork from the declarations in the plugins (tools/update-docs.sh); do not edit. -->\n"
       "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n";
   text += frame_types(kinds);
   for (const Kind kind : kinds) text += section_type(kind, manual);
-  for (const Described& each : manual)
-    if (each.kind != Kind::derive) text += plugin_type(each);
+  for (const Described& each : manual) text += plugin_type(each);
   return text + value_types() + "</xs:schema>\n";
 }
 

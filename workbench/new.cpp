@@ -64,11 +64,11 @@ std::string schema_attributes() {
 std::string skeleton_deck(const Manual& chosen, const std::string& name) {
   std::string text = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<scene name=\"{}\" seed=\"1\"{}>\n",
                                  xml_escaped(name), schema_attributes());
-  for (const Kind kind : all_kinds) {
+  for (const KindRow& row : all_kinds) {
     std::string section;
     for (const Described& each : chosen)
-      if (each.kind == kind) section += skeleton(each);
-    if (!section.empty()) text += fmt::format("  <{0}>\n{1}  </{0}>\n", kind_name(kind), section);
+      if (each.kind == row.kind) section += skeleton(each);
+    if (!section.empty()) text += fmt::format("  <{0}>\n{1}  </{0}>\n", row.name, section);
   }
   return text + "</scene>\n";
 }

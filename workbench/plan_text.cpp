@@ -16,7 +16,7 @@ std::string label(const Plugin& plugin) {
   std::string text = plugin.tag();
   for (const ParamBase* param : plugin.params())
     if (param->info().role == Role::makes_set || param->info().role == Role::makes_family ||
-        param->info().role == Role::family || (param->info().role == Role::set && plugin.family().empty()))
+        param->info().role == Role::family || (param->info().role == Role::set && plugin.families().empty()))
       for (const std::string& name : param->names()) text += " " + name;
   return text;
 }
@@ -33,7 +33,7 @@ std::string with_cadence(const Plugin& plugin) {
   std::vector<std::string> when;
   const ParamBase* every = plugin.param("every");
   if (every && every->given() && every->text() != "1") when.push_back(fmt::format("every {} steps", every->text()));
-  if (const auto* watcher = dynamic_cast<const Watcher*>(&plugin); watcher && watcher->moments.given())
+  if (const auto* watcher = as_kind<Watcher>(plugin); watcher && watcher->moments.given())
     when.push_back("at " + *watcher->moments);
   return when.empty() ? label(plugin) : fmt::format("{} ({})", label(plugin), join(when));
 }
@@ -74,12 +74,6 @@ std::string phases(const Scene& scene, std::size_t number) {
   return text;
 }
 
-Kind kind_in(const Scene& scene, const Plugin& plugin) {
-  for (const Filler* filler : scene.fillers)
-    if (filler == &plugin) return Kind::fill;
-  return Kind::watch;  // any kind but fill, which alone has a word of its own
-}
-
 // Who does what with a column: "keeps: verlet; adds: cohesive-beam".
 std::string users(const Scene& scene, const std::string& column, On on, const std::string& family) {
   std::map<std::string, std::vector<std::string>> by_word;
@@ -88,10 +82,11 @@ std::string users(const Scene& scene, const std::string& column, On on, const st
     if (std::find(tags.begin(), tags.end(), tag) == tags.end()) tags.push_back(tag);
   };
   for (const auto& plugin : scene.plugins) {
-    const bool here = on != On::bonds || plugin->family() == family;
+    const auto families = plugin->families();
+    const bool here = on != On::bonds || std::find(families.begin(), families.end(), family) != families.end();
     for (const FieldUse* use : plugin->uses())
       if (here && use->wanted() && use->field().on == on && plugin->column_name(*use) == column)
-        note(use_word(kind_in(scene, *plugin), use->verb()), plugin->tag());
+        note(use_word(plugin->kind(), use->verb()), plugin->tag());
     for (const ParamBase* param : plugin->params())
       if (param->info().role == Role::fields)
         for (const std::string& name : param->names())
@@ -139,12 +134,14 @@ std::string fields(const Scene& scene) {
 std::vector<std::string> declined(const Scene& scene) {
   std::vector<std::string> all;
   for (const auto& plugin : scene.plugins) {
-    const BondTable* table = scene.domain->find_family(plugin->family());
     std::vector<std::string> names;
-    for (const FieldUse* use : plugin->uses())
-      if (use->verb() == Verb::writes && use->field().on == On::bonds && table &&
-          !table->rows().find(use->field().name))
+    for (const FieldUse* use : plugin->uses()) {
+      if (use->verb() != Verb::writes || use->field().on != On::bonds) continue;
+      const auto tables = plugin->tables(*scene.domain, On::bonds);
+      if (std::none_of(tables.begin(), tables.end(),
+                       [&](const Table* table) { return table->find(use->field().name); }))
         names.push_back(use->field().name);
+    }
     if (!names.empty())
       all.push_back(fmt::format("columns that {} offers and nobody reads: {}", label(*plugin), join(names)));
   }

@@ -28,6 +28,13 @@ struct Quaternion {
 };
 using Quat = Quaternion<Real>;
 
+/// Symmetric tensor, by rows of its upper half.
+template <class T>
+struct Symmetric {
+  T xx, xy, xz, yy, yz, zz;
+};
+using Sym3 = Symmetric<Real>;
+
 /// Eigen leaves `Vec3{}` uninitialised; this is what zero means for every type a column can hold.
 template <class T>
 T zero() {

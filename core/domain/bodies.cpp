@@ -11,7 +11,7 @@ namespace {
 std::unordered_set<Index> broken_by(const Domain& domain, const BondTable& table, std::int64_t when) {
   std::unordered_set<Index> ids;
   for (const Break& b : domain.breaks().breaks)
-    if (b.step <= when && domain.families()[static_cast<std::size_t>(b.family)].get() == &table) ids.insert(b.bond);
+    if (b.step <= when && domain.families()[static_cast<std::size_t>(b.family)] == &table) ids.insert(b.bond);
   return ids;
 }
 

@@ -53,7 +53,8 @@ class BondTable {
   /// Row of the force line that takes the second element's share: its own, or one of the halo.
   View<const Index> target() const { return target_; }
   View<const Index> id() const { return id_; }
-  View<State> state() const { return state_; }
+  View<State> state() { return state_; }
+  View<const State> state() const { return state_; }
   /// Fetches the views anew after rows have moved.
   void rebind();
 

@@ -16,6 +16,7 @@ struct Break {
   Index mode = 0;             ///< place of the mode's name in BreakLog::modes
   Vec3 place = zero<Vec3>();  ///< middle of the bond [m]
   Real energy = 0;            ///< released with this break [J]
+  Index element = -1;         ///< stable id of the element that failed; -1 where it was the bond
 };
 
 struct BreakLog {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
@@ -17,11 +19,7 @@ Domain::Domain() {
   elements_.add(field::radius).keep();
 }
 
-Table& Domain::list(const std::string& name) {
-  std::unique_ptr<Table>& there = lists_[name];
-  if (!there) there = std::make_unique<Table>(Table::Layout::planes);
-  return *there;
-}
+Table& Domain::list(const std::string& name) { return lists_.try_emplace(name, Table::Layout::planes).first->second; }
 
 Index Domain::add_elements(Index count) {
   const Index first = size();
@@ -52,13 +50,18 @@ const Set& Domain::set(const std::string& name) const {
 
 BondTable& Domain::add_family(const std::string& name) {
   families_.push_back(std::make_unique<BondTable>(name));
+  shown_.push_back(families_.back().get());
   return *families_.back();
 }
 
-BondTable* Domain::find_family(const std::string& name) const {
+const BondTable* Domain::find_family(const std::string& name) const {
   for (const auto& family : families_)
     if (family->name() == name) return family.get();
   return nullptr;
+}
+
+BondTable* Domain::find_family(const std::string& name) {
+  return const_cast<BondTable*>(std::as_const(*this).find_family(name));
 }
 
 Index Domain::bonds() const {
@@ -84,12 +87,13 @@ void Domain::cut_families() {
     shares_.back().end = here + 1;
   }
   elements_.reserve_beyond("load", halo - size());
+  for (const Column* sum : sums()) elements_.reserve_beyond(sum->field().line, halo - size());
 }
 
 void Domain::gather() {
   if (shares_.empty()) return;
   const auto force = elements_.column("force").view<Vec3>();
-  const Column* torques = elements_.find("torque");
+  Column* torques = elements_.find("torque");
   const auto torque = torques ? torques->view<Vec3>() : View<Vec3>{};
   const auto count = static_cast<Index>(shares_.size());
   each_shared(
@@ -110,9 +114,37 @@ void Domain::gather() {
       256);
 }
 
+std::vector<Column*> Domain::sums() {
+  std::vector<Column*> all = elements_.columns();
+  std::erase_if(all, [](const Column* column) { return !column->summed(); });
+  return all;
+}
+
+void Domain::clear_sums() {
+  const std::size_t rows = static_cast<std::size_t>(size()) + share_rows_.size();
+  for (Column* sum : sums()) std::memset(sum->base(), 0, rows * sum->stride());
+}
+
+void Domain::gather_sums() {
+  for (Column* column : sums()) {
+    const auto number = [&](Index row, int c) -> Real& {
+      return reinterpret_cast<Real*>(column->base() + static_cast<std::size_t>(row) * column->stride())[c];
+    };
+    each_shared(
+        static_cast<Index>(shares_.size()),
+        [&](Index s) {
+          const Share& share = shares_[static_cast<std::size_t>(s)];
+          for (Index k = share.begin; k < share.end; ++k)
+            for (int c = 0; c < components(column->field().type); ++c)
+              number(share.element, c) += number(share_rows_[static_cast<std::size_t>(k)], c);
+        },
+        256);
+  }
+}
+
 void Domain::clear_loads() {
   for (const char* name : {"force", "torque"})
-    if (const Column* load = elements_.find(name)) {
+    if (Column* load = elements_.find(name)) {
       const auto sum = load->view<Vec3>();
       for (Index row = 0; row < size(); ++row) sum.set(row, zero<Vec3>());
     }
@@ -120,7 +152,7 @@ void Domain::clear_loads() {
 
 void Domain::clear_halo() {
   for (const char* name : {"force", "torque"})
-    if (const Column* load = elements_.find(name))
+    if (Column* load = elements_.find(name))
       for (const Index row : share_rows_) load->view<Vec3>().set(row, zero<Vec3>());
 }
 

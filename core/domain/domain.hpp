@@ -30,7 +30,8 @@ class Domain {
   Index size() const { return elements_.size(); }
   /// What else the scene remembers by the row: of its constraints, its watchers, its criteria. Made if need be.
   Table& list(const std::string& name);
-  const std::map<std::string, std::unique_ptr<Table>>& lists() const { return lists_; }
+  const std::map<std::string, Table>& lists() const { return lists_; }
+  std::map<std::string, Table>& lists() { return lists_; }
 
   /// Appends elements at rest, unturned; their other columns are zero. Returns the first new row.
   Index add_elements(Index count);
@@ -42,8 +43,10 @@ class Domain {
   const Set& set(const std::string& name) const;
 
   BondTable& add_family(const std::string& name);
-  BondTable* find_family(const std::string& name) const;
-  const std::vector<std::unique_ptr<BondTable>>& families() const { return families_; }
+  BondTable* find_family(const std::string& name);
+  const BondTable* find_family(const std::string& name) const;
+  const std::vector<std::unique_ptr<BondTable>>& families() { return families_; }
+  const std::vector<const BondTable*>& families() const { return shown_; }
   Index bonds() const;
 
   BreakLog& breaks() { return breaks_; }
@@ -54,17 +57,22 @@ class Domain {
   void cut_families();
   /// Adds the halo rows to their elements. To be called once all families have acted.
   void gather();
+  /// The same for the other sums (Column::summed), which are cleared before.
+  void clear_sums();
+  void gather_sums();
   /// Sets all forces and torques to zero.
   void clear_loads();
   /// Sets the halo rows to zero: for what adds to forces that have been gathered already, and gathers again.
   void clear_halo();
 
  private:
+  std::vector<Column*> sums();
   Table elements_{Table::Layout::rows};
   Table scene_{Table::Layout::rows};
-  std::map<std::string, std::unique_ptr<Table>> lists_;
+  std::map<std::string, Table> lists_;
   std::map<std::string, Set> sets_;
   std::vector<std::unique_ptr<BondTable>> families_;
+  std::vector<const BondTable*> shown_;  ///< the same, to those who may only look
   BreakLog breaks_;
   struct Share {
     Index element, begin, end;  ///< halo rows `shares_[begin..end)` belong to `element`

@@ -7,6 +7,7 @@ const char* type_name(Type type) {
     case Type::real: return "real";
     case Type::vec3: return "vector";
     case Type::quat: return "quaternion";
+    case Type::sym3: return "symmetric tensor";
     case Type::index: return "index";
     case Type::state: return "state";
   }

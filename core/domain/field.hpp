@@ -9,7 +9,7 @@
 namespace beadwork {
 
 enum class On : std::uint8_t { elements, bonds, scene };
-enum class Type : std::uint8_t { real, vec3, quat, index, state };
+enum class Type : std::uint8_t { real, vec3, quat, index, state, sym3 };
 
 /// Break state of a bond; what is `broken` or beyond takes part in no loop unless its law says so.
 enum class State : std::uint8_t { intact = 0, softening = 1, broken = 2 };
@@ -23,15 +23,19 @@ constexpr Type type_of() {
     return Type::vec3;
   else if constexpr (std::is_same_v<U, Quat>)
     return Type::quat;
+  else if constexpr (std::is_same_v<U, Sym3>)
+    return Type::sym3;
   else if constexpr (std::is_same_v<U, Index>)
     return Type::index;
   else {
-    static_assert(std::is_same_v<U, State>, "a column holds Real, Vec3, Quat, Index or State");
+    static_assert(std::is_same_v<U, State>, "a column holds Real, Vec3, Quat, Sym3, Index or State");
     return Type::state;
   }
 }
 
-constexpr int components(Type type) { return type == Type::vec3 ? 3 : type == Type::quat ? 4 : 1; }
+constexpr int components(Type type) {
+  return type == Type::vec3 ? 3 : type == Type::quat ? 4 : type == Type::sym3 ? 6 : 1;
+}
 constexpr std::size_t component_bytes(Type type) {
   return type == Type::index ? sizeof(Index) : type == Type::state ? sizeof(State) : sizeof(Real);
 }

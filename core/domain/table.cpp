@@ -7,6 +7,7 @@
 #include <cstring>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace beadwork {
 
@@ -57,19 +58,29 @@ Column& Table::add(const Field& field) {
   return made;
 }
 
-Column* Table::find(std::string_view name) const {
+const Column* Table::find(std::string_view name) const {
   for (const auto& column : columns_)
     if (column->field().name == name) return column.get();
   return nullptr;
 }
 
-Column& Table::column(std::string_view name) const {
-  if (Column* there = find(name)) return *there;
+const Column& Table::column(std::string_view name) const {
+  if (const Column* there = find(name)) return *there;
   throw std::logic_error(fmt::format("no column '{}' in this scene", name));
 }
 
-std::vector<Column*> Table::columns() const {
+Column* Table::find(std::string_view name) { return const_cast<Column*>(std::as_const(*this).find(name)); }
+
+Column& Table::column(std::string_view name) { return const_cast<Column&>(std::as_const(*this).column(name)); }
+
+std::vector<Column*> Table::columns() {
   std::vector<Column*> all;
+  for (const auto& column : columns_) all.push_back(column.get());
+  return all;
+}
+
+std::vector<const Column*> Table::columns() const {
+  std::vector<const Column*> all;
   for (const auto& column : columns_) all.push_back(column.get());
   return all;
 }

@@ -36,14 +36,22 @@ class Column {
   const Field& field() const { return field_; }
   bool kept() const { return kept_; }  ///< saved in checkpoints
   void keep() { kept_ = true; }
+  bool summed() const { return summed_; }  ///< a sum that families add to, beside those of the forces
+  void sum() { summed_ = true; }
 
-  /// Throws std::logic_error if the column holds another type.
+  /// Throws std::logic_error if the column holds another type. Of a const column nobody gets more than a look.
   template <class T>
-  View<T> view() const {
+  View<T> view() {
     require(type_of<T>());
     return {base_, stride_, plane_};
   }
-  std::byte* base() const { return base_; }
+  template <class T>
+  View<const T> view() const {
+    require(type_of<T>());
+    return {base_, stride_, plane_};
+  }
+  std::byte* base() { return base_; }
+  const std::byte* base() const { return base_; }
   std::size_t stride() const { return stride_; }
   std::size_t plane() const { return plane_; }
 
@@ -52,6 +60,7 @@ class Column {
   void require(Type type) const;
   Field field_;
   bool kept_ = false;
+  bool summed_ = false;
   std::byte* base_ = nullptr;
   std::size_t stride_ = 0;
   std::size_t plane_ = 0;
@@ -69,10 +78,13 @@ class Table {
 
   /// The column of this name, made if need be. Throws std::logic_error if it exists with another type or unit.
   Column& add(const Field& field);
-  Column* find(std::string_view name) const;
+  Column* find(std::string_view name);
+  const Column* find(std::string_view name) const;
   /// As `find`, but throws std::logic_error naming the column when there is none.
-  Column& column(std::string_view name) const;
-  std::vector<Column*> columns() const;
+  Column& column(std::string_view name);
+  const Column& column(std::string_view name) const;
+  std::vector<Column*> columns();
+  std::vector<const Column*> columns() const;
 
   Index size() const { return size_; }
   /// Rows beyond `size`, of the columns of `line` only, for sums that are not yet an element's own.

@@ -12,7 +12,8 @@ namespace beadwork {
 template <class T>
 class View {
   using Value = std::remove_const_t<T>;
-  static constexpr bool scalar = !std::is_same_v<Value, Vec3> && !std::is_same_v<Value, Quat>;
+  static constexpr bool scalar =
+      !std::is_same_v<Value, Vec3> && !std::is_same_v<Value, Quat> && !std::is_same_v<Value, Sym3>;
   using Scalar = std::conditional_t<scalar, Value, Real>;
   using Byte = std::conditional_t<std::is_const_v<T>, const std::byte, std::byte>;
   using Component = std::conditional_t<std::is_const_v<T>, const Scalar, Scalar>;
@@ -37,6 +38,8 @@ class View {
       return at(row, 0);
     else if constexpr (std::is_same_v<Value, Vec3>)
       return Vec3(at(row, 0), at(row, 1), at(row, 2));
+    else if constexpr (std::is_same_v<Value, Sym3>)
+      return Sym3{at(row, 0), at(row, 1), at(row, 2), at(row, 3), at(row, 4), at(row, 5)};
     else
       return Quat{at(row, 0), Vec3(at(row, 1), at(row, 2), at(row, 3))};
   }
@@ -46,6 +49,9 @@ class View {
       at(row, 0) = value;
     } else if constexpr (std::is_same_v<Value, Vec3>) {
       for (int c = 0; c < 3; ++c) at(row, c) = value[c];
+    } else if constexpr (std::is_same_v<Value, Sym3>) {
+      const Real numbers[] = {value.xx, value.xy, value.xz, value.yy, value.yz, value.zz};
+      for (int c = 0; c < 6; ++c) at(row, c) = numbers[c];
     } else {
       at(row, 0) = value.w;
       for (int c = 0; c < 3; ++c) at(row, c + 1) = value.v[c];

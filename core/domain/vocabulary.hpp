@@ -30,4 +30,14 @@ inline const Field rest_length{
 inline const Field utilisation{"utilisation", On::bonds, Type::real, "1", "Failure criterion over its threshold", ""};
 inline const Field damage{"damage", On::bonds, Type::real, "1", "0 undamaged, 1 failed", ""};
 
+// What a criterion finds over its threshold.
+inline const Field element_utilisation{
+    "utilisation", On::elements, Type::real, "1", "Failure criterion over its threshold", ""};
+
+// Sums that bond laws offer of each element.
+inline const Field virial_sum{
+    "virial-sum", On::elements, Type::sym3, "N.m", "Sum of sym(r x f) over the element's bonds", ""};
+inline const Field virial_trace_sum{
+    "virial-trace-sum", On::elements, Type::real, "N.m", "Sum of r.f over the element's bonds", ""};
+
 }  // namespace beadwork::field

@@ -14,7 +14,7 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 // ---- writing
 
@@ -27,7 +27,7 @@ void save_table(hid_t place, const std::string& name, const Table& table) {
 
 void save_lists(hid_t place, const Domain& domain) {
   const h5::Handle group = h5::make_group(place, "lists");
-  for (const auto& [name, list] : domain.lists()) save_table(group.id(), name, *list);
+  for (const auto& [name, list] : domain.lists()) save_table(group.id(), name, list);
 }
 
 void save_families(hid_t place, const Domain& domain) {
@@ -53,12 +53,12 @@ void save_breaks(hid_t place, const BreakLog& log) {
   std::vector<std::int64_t> steps;
   for (const Break& b : log.breaks) {
     reals.insert(reals.end(), {b.time, b.place[0], b.place[1], b.place[2], b.energy});
-    indices.insert(indices.end(), {b.family, b.bond, b.mode});
+    indices.insert(indices.end(), {b.family, b.bond, b.mode, b.element});
     steps.push_back(b.step);
   }
   h5::write_texts(group.id(), "modes", log.modes);
   h5::write_reals(group.id(), "reals", reals, 5, {"SI", "Time, place (3), energy"});
-  h5::write_indices(group.id(), "indices", indices, 3, {"1", "Family, bond, mode"});
+  h5::write_indices(group.id(), "indices", indices, 4, {"1", "Family, bond, mode, element that failed or -1"});
   h5::write_integers(group.id(), "steps", steps, {"1", "Step"});
 }
 
@@ -200,12 +200,12 @@ void require_whole(const Domain& domain) {
 // What the scene lists follows from the deck: its rows are there already.
 void load_lists(hid_t place, Domain& domain) {
   const h5::Handle group = h5::open_group(place, "lists");
-  for (const auto& [name, list] : domain.lists()) {
-    if (!h5::has(group.id(), name) || saved_rows(group.id(), name) != list->size())
+  for (auto& [name, list] : domain.lists()) {
+    if (!h5::has(group.id(), name) || saved_rows(group.id(), name) != list.size())
       throw DeckFailure(
           fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it",
-                      list->size(), name));
-    load_columns(group.id(), name, *list, On::scene, fmt::format("the scene's {}", name));
+                      list.size(), name));
+    load_columns(group.id(), name, list, On::scene, fmt::format("the scene's {}", name));
   }
 }
 
@@ -239,21 +239,21 @@ BreakLog load_breaks(hid_t place, const std::vector<Index>& families, const Doma
   BreakLog log;
   log.modes = h5::read_texts(group.id(), "modes");
   const auto reals = h5::read_reals(group.id(), "reals", 5);
-  const auto indices = h5::read_indices(group.id(), "indices", 3);
+  const auto indices = h5::read_indices(group.id(), "indices", 4);
   const auto steps = h5::read_integers(group.id(), "steps");
-  if (reals.size() != 5 * steps.size() || indices.size() != 3 * steps.size())
+  if (reals.size() != 5 * steps.size() || indices.size() != 4 * steps.size())
     throw MachineFailure("its log of breaks is not whole");
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Real* r = &reals[5 * i];
-    const Index* n = &indices[3 * i];
+    const Index* n = &indices[4 * i];
     const auto within = [](Index number, std::size_t count) {
       return number >= 0 && static_cast<std::size_t>(number) < count;
     };
     if (!within(n[0], families.size()) || !within(n[1], static_cast<std::size_t>(domain.bonds())) ||
-        !within(n[2], log.modes.size()))
-      throw MachineFailure(fmt::format("break {} is of a family, a bond or a mode that there is not", i));
+        !within(n[2], log.modes.size()) || (n[3] != -1 && !within(n[3], static_cast<std::size_t>(domain.size()))))
+      throw MachineFailure(fmt::format("break {} is of a family, a bond, a mode or an element that there is not", i));
     log.breaks.push_back(
-        {r[0], steps[i], families[static_cast<std::size_t>(n[0])], n[1], n[2], Vec3(r[1], r[2], r[3]), r[4]});
+        {r[0], steps[i], families[static_cast<std::size_t>(n[0])], n[1], n[2], Vec3(r[1], r[2], r[3]), r[4], n[3]});
   }
   return log;
 }

@@ -35,12 +35,12 @@ class Descriptor {
 
 /// Whether a link that stands in the place of a file is followed. In the folder of a run it is not: nobody but a run
 /// writes there, and what the link points to is somebody else's.
-enum class Links { refuse, follow };
+enum class SymbolicLinks { refuse, follow };
 
 /// Opens a regular file that is there, with the flags of open(2). A link, a folder, a pipe or a device under that name
 /// is refused without being touched. Throws MachineFailure "cannot <doing> 'file': ...".
 Descriptor open_regular(const std::filesystem::path& file, int flags, std::string_view doing,
-                        Links links = Links::refuse);
+                        SymbolicLinks links = SymbolicLinks::refuse);
 
 /// The text of a regular file of at most `most` bytes. Throws MachineFailure.
 std::string read_text(const std::filesystem::path& file, std::uintmax_t most);

@@ -104,11 +104,11 @@ h5::Handle FrameReader::File::frame(const std::string& name) const {
   return h5::open_group(h5::open_file(folder / file).id(), elsewhere->group);
 }
 
-FrameReader::FrameReader(const std::filesystem::path& file, Links links) : file_(std::make_unique<File>()) {
+FrameReader::FrameReader(const std::filesystem::path& file, SymbolicLinks links) : file_(std::make_unique<File>()) {
   const h5::Silence silence;
   file_->handle = h5::open_file(file, links);
   std::error_code error;  // of a path that leads nowhere: then it could not be opened
-  file_->folder = (links == Links::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
+  file_->folder = (links == SymbolicLinks::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
   if (!has(file_->handle.id(), "frames")) return;
   for (const std::string& name : h5::names_in(h5::open_group(file_->handle.id(), "frames").id())) {
     try {

@@ -61,7 +61,7 @@ struct Breaks {
 class FrameReader {
  public:
   /// Throws MachineFailure if the file cannot be opened as HDF5.
-  explicit FrameReader(const std::filesystem::path& file, Links links = Links::refuse);
+  explicit FrameReader(const std::filesystem::path& file, SymbolicLinks links = SymbolicLinks::refuse);
   ~FrameReader();
   FrameReader(const FrameReader&) = delete;
   FrameReader& operator=(const FrameReader&) = delete;

@@ -75,7 +75,7 @@ void write_column(hid_t place, const Column& column, Index rows, Storage storage
 // lies outside of the file (links, raw data in other files, virtual datasets) is never followed. MachineFailure says
 // what does not fit.
 
-Handle open_file(const std::filesystem::path& file, Links links = Links::refuse);
+Handle open_file(const std::filesystem::path& file, SymbolicLinks links = SymbolicLinks::refuse);
 /// A group of this file, by a path of names.
 Handle open_group(hid_t place, const std::string& path);
 bool has(hid_t place, const std::string& name);

@@ -193,7 +193,7 @@ void fill_column(hid_t place, Column& column, Index rows, Kind kind, hid_t memor
 
 }  // namespace
 
-Handle open_file(const std::filesystem::path& file, Links links) {
+Handle open_file(const std::filesystem::path& file, SymbolicLinks links) {
   open_regular(file, O_RDONLY, "open", links);  // HDF5 would wait for a pipe
   const Handle access = take(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open a file");
   // Files are replaced, never changed: who reads one needs no lock, and some file systems have none.

@@ -33,7 +33,7 @@ std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::Fram
 }
 
 StoredPacking first_frame(const std::filesystem::path& file) {
-  const record::FrameReader reader(file, Links::follow);
+  const record::FrameReader reader(file, SymbolicLinks::follow);
   if (reader.frames().empty())
     throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
   record::Frame frame = reader.read(reader.frames().front());

@@ -31,7 +31,7 @@ struct Cell {
 };
 
 std::shared_ptr<const Source> source_of(const std::filesystem::path& file) {
-  open_regular(file, O_RDONLY, "read", Links::follow);  // a pipe would be waited for
+  open_regular(file, O_RDONLY, "read", SymbolicLinks::follow);  // a pipe would be waited for
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw MachineFailure(fmt::format("cannot read \"{}\": {}", file.string(), std::strerror(errno)));
   auto source = std::make_shared<Source>(Source{file.string(), {std::istreambuf_iterator<char>(stream), {}}});

@@ -78,6 +78,8 @@ void write_breaks_of(hid_t place, const Domain& domain) {
   indices("bond", [](const Break& b) { return b.bond; }, {"1", "Id of the bond"}, {});
   indices(
       "mode", [](const Break& b) { return b.mode; }, {"1", "Row of mode_names"}, domain.breaks().modes);
+  indices("element", [](const Break& b) { return b.element; },
+          {"1", "Id of the element that failed, -1 where it was the bond"}, {});
   h5::write_integers(group.id(), "step", steps, {"1", "Step of the break"});
   h5::write_reals(group.id(), "place", places, 3, {"m", "Middle of the bond"});
   h5::write_texts(group.id(), "family_names", families);

@@ -13,10 +13,31 @@ namespace beadwork {
 
 namespace {
 
-std::optional<Kind> kind_of(const std::string& tag) {
-  for (const Kind kind : all_kinds)
-    if (tag == kind_name(kind)) return kind;
-  return std::nullopt;
+/// How a stage holds the plugins of a kind.
+struct InStage {
+  Kind kind;
+  void (*enlist)(Stage& stage, Plugin& plugin);
+  void (*inherit)(Stage& stage, const Stage& common);
+  void (*list)(const Stage& stage, std::vector<const Plugin*>& all);
+};
+template <class K, std::vector<K*> Stage::*list>
+constexpr InStage in_stage{K::its_kind,
+                           [](Stage& stage, Plugin& plugin) { (stage.*list).push_back(static_cast<K*>(&plugin)); },
+                           [](Stage& stage, const Stage& common) {
+                             (stage.*list).insert((stage.*list).begin(), (common.*list).begin(), (common.*list).end());
+                           },
+                           [](const Stage& stage, std::vector<const Plugin*>& all) {
+                             all.insert(all.end(), (stage.*list).begin(), (stage.*list).end());
+                           }};
+constexpr InStage stage_kinds[] = {in_stage<BondLaw, &Stage::laws>, in_stage<Load, &Stage::loads>,
+                                   in_stage<Mover, &Stage::movers>, in_stage<Failure, &Stage::failures>,
+                                   in_stage<Watcher, &Stage::watchers>};
+
+/// The kind whose section this is, where such a section may stand.
+const KindRow* section(const std::string& tag, bool inside_stage) {
+  for (const KindRow& row : all_kinds)
+    if (tag == row.name && (row.in_stages || !inside_stage)) return &row;
+  return nullptr;
 }
 
 bool holds(const std::vector<Mover*>& movers, const Mover* mover) {
@@ -25,8 +46,8 @@ bool holds(const std::vector<Mover*>& movers, const Mover* mover) {
 
 std::vector<std::string> section_names(bool inside_stage) {
   std::vector<std::string> names;
-  for (const Kind kind : all_kinds)
-    if (kind != Kind::derive && !(inside_stage && kind == Kind::fill)) names.push_back(kind_name(kind));
+  for (const KindRow& row : all_kinds)
+    if (row.in_stages || !inside_stage) names.push_back(row.name);
   if (!inside_stage) names.push_back("stage");
   return names;
 }
@@ -58,17 +79,18 @@ void Scene::bind() const {
   for (const auto& plugin : plugins) plugin->bind(*domain);
 }
 
-std::size_t Scene::first_stage(const BondLaw& law) const {
-  for (std::size_t s = 0; s < stages.size(); ++s)
-    for (const BondLaw* there : stages[s].laws)
-      if (there == &law) return s;
-  return stages.size();
+std::vector<const Plugin*> Stage::plugins() const {
+  std::vector<const Plugin*> all;
+  for (const InStage& kind : stage_kinds) kind.list(*this, all);
+  return all;
 }
 
-const BondLaw* Scene::law_of(const std::string& family) const {
-  for (const auto& plugin : plugins)
-    if (const auto* law = dynamic_cast<const BondLaw*>(plugin.get()); law && law->family() == family) return law;
-  return nullptr;
+std::size_t Scene::first_stage(const Plugin& plugin) const {
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    const auto there = stages[s].plugins();
+    if (std::find(there.begin(), there.end(), &plugin) != there.end()) return s;
+  }
+  return stages.size();
 }
 
 std::vector<std::string> Scene::files() const {
@@ -85,7 +107,7 @@ void Assembly::run() {
   scene_.domain = std::make_unique<Domain>();
   read_root();
   if (complaints_.errors() == 0) {
-    for (const auto& plugin : scene_.plugins) blaming(*plugin, "family", [&] { return plugin->family(); });
+    for (const auto& plugin : scene_.plugins) blaming(*plugin, "families", [&] { return plugin->families(); });
     for (const auto& plugin : scene_.plugins) blaming(*plugin, "check", [&] { plugin->check(complaints_); });
     for (const auto& plugin : scene_.plugins) blaming(*plugin, "choose", [&] { plugin->choose(); });
   }
@@ -132,11 +154,10 @@ void Assembly::read_root() {
 
 void Assembly::read_sections(const Node& parent, Stage& stage, bool inside_stage) {
   for (const auto& child : parent.children) {
-    const auto kind = kind_of(child->tag);
-    if (kind && *kind != Kind::derive && !(inside_stage && *kind == Kind::fill)) {
+    if (const KindRow* kind = section(child->tag, inside_stage)) {
       for (const Attribute& attribute : child->attributes)
         complaints_.error(attribute.name_at, fmt::format("<{}> takes no attributes", child->tag));
-      read_section(*kind, *child, stage);
+      read_section(kind->kind, *child, stage);
     } else if (child->tag == "stage" && !inside_stage) {
       Stage& made = scene_.stages.emplace_back();
       made.at = child->at;
@@ -158,7 +179,7 @@ void Assembly::read_sections(const Node& parent, Stage& stage, bool inside_stage
     } else {
       const auto known = section_names(inside_stage);
       note_unread(*child);
-      unread_kinds_.insert(std::begin(all_kinds), std::end(all_kinds));
+      for (const KindRow& row : all_kinds) unread_kinds_.insert(row.kind);
       complaints_.error(child->at, fmt::format("no section <{}> in <{}>{}", child->tag, parent.tag,
                                                did_you_mean(child->tag, known, "<", ">")));
     }
@@ -184,7 +205,7 @@ void Assembly::read_section(Kind kind, const Node& section, Stage& stage) {
       }
     for (const ParamBase* p : plugin->params())
       if (p->in_deck() && !p->given()) unread_kinds_.insert(kind);
-    enlist(*plugin, kind, stage);
+    enlist(*plugin, stage);
     scene_.plugins.push_back(std::move(plugin));
   }
 }
@@ -215,16 +236,10 @@ void Assembly::note_unread(const Node& node) {
 
 bool Assembly::is_read(Kind kind) const { return !unread_kinds_.contains(kind); }
 
-void Assembly::enlist(Plugin& plugin, Kind kind, Stage& stage) {
-  switch (kind) {
-    case Kind::fill: scene_.fillers.push_back(static_cast<Filler*>(&plugin)); break;
-    case Kind::bond: stage.laws.push_back(static_cast<BondLaw*>(&plugin)); break;
-    case Kind::load: stage.loads.push_back(static_cast<Load*>(&plugin)); break;
-    case Kind::move: stage.movers.push_back(static_cast<Mover*>(&plugin)); break;
-    case Kind::fail: stage.failures.push_back(static_cast<Failure*>(&plugin)); break;
-    case Kind::watch: stage.watchers.push_back(static_cast<Watcher*>(&plugin)); break;
-    case Kind::derive: break;
-  }
+void Assembly::enlist(Plugin& plugin, Stage& stage) {
+  if (auto* filler = as_kind<Filler>(plugin)) scene_.fillers.push_back(filler);
+  for (const InStage& kind : stage_kinds)
+    if (kind.kind == plugin.kind()) kind.enlist(stage, plugin);
 }
 
 void Assembly::merge_common_into_stages() {
@@ -234,14 +249,8 @@ void Assembly::merge_common_into_stages() {
     scene_.stages.push_back(common_);
     return;
   }
-  const auto front = [](auto& into, const auto& from) { into.insert(into.begin(), from.begin(), from.end()); };
-  for (Stage& stage : scene_.stages) {
-    front(stage.laws, common_.laws);
-    front(stage.loads, common_.loads);
-    front(stage.movers, common_.movers);
-    front(stage.failures, common_.failures);
-    front(stage.watchers, common_.watchers);
-  }
+  for (Stage& stage : scene_.stages)
+    for (const InStage& kind : stage_kinds) kind.inherit(stage, common_);
 }
 
 void Assembly::check_stage(Stage& stage) {

@@ -24,7 +24,7 @@ class Assembly {
   void complain_of_tag(Kind kind, const Node& node);
   void note_unread(const Node& node);
   bool is_read(Kind kind) const;
-  void enlist(Plugin& plugin, Kind kind, Stage& stage);
+  void enlist(Plugin& plugin, Stage& stage);
   void merge_common_into_stages();
   void check_stage(Stage& stage);
   void check_watchers();
@@ -57,15 +57,21 @@ class Assembly {
   void begin_lines();
   void add_provided();
   void meet_readers();
-  bool meet(const Plugin& reader, const FieldUse& use);
-  void complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names);
+  void add_columns(const Plugin& plugin, const FieldUse& use);
+  void meet_uses(const Plugin& reader);
+  bool meet(const Plugin& reader, const FieldUse& use, std::size_t family);
+  void complain_of_missing(const Plugin& reader, On on, const std::string& family,
+                           const std::vector<std::string>& names);
   void meet_names(const Plugin& reader, const ParamBase& fields);
   void provide_all(const Plugin& reader);
   bool can_derive(const std::string& name) const;
   bool provide(On on, const std::string& name, const std::string& family);
   bool derive(const std::string& name, const Plugin& reader);
+  Derived& made_to_derive(const std::string& name, const Plugin& reader);
+  bool reads_sums(const Derived& derived) const;
+  void note_sums();
+  void warn_of_idle();
   std::vector<std::string> providable(On on, const std::string& family) const;
-  Table* table_of(const Plugin& plugin, On on) const;
 
   const Deck& deck_;
   const Catalogue& catalogue_;

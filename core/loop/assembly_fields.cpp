@@ -5,8 +5,20 @@
 #include "core/base/text.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/loop/assembly.hpp"
+#include "core/plugin/blame.hpp"
 
 namespace beadwork {
+
+namespace {
+
+bool is_of(const Plugin& plugin, const std::string& family) {
+  const auto families = plugin.families();
+  return std::find(families.begin(), families.end(), family) != families.end();
+}
+
+bool is_offered(const FieldUse& use) { return use.verb() == Verb::writes || use.verb() == Verb::sums; }
+
+}  // namespace
 
 void Assembly::lay_out_fields() {
   choose_rotations();
@@ -14,35 +26,30 @@ void Assembly::lay_out_fields() {
   begin_lines();
   add_provided();
   meet_readers();
+  note_sums();
+  warn_of_idle();
 }
 
 // Rotations are integrated only if somebody reads orientations or adds torques.
 void Assembly::choose_rotations() {
   bool wanted = false;
   for (const auto& plugin : scene_.plugins) {
-    if (dynamic_cast<const Mover*>(plugin.get())) continue;
+    if (plugin->kind() == Kind::move || plugin->kind() == Kind::derive) continue;
     for (const FieldUse* use : plugin->uses())
       wanted |= use->wanted() && use->field().on == On::elements &&
                 (use->field().name == "orientation" || use->field().name == "torque" || use->field().name == "spin");
   }
   for (const auto& plugin : scene_.plugins)
-    if (auto* mover = dynamic_cast<Mover*>(plugin.get()))
+    if (auto* mover = as_kind<Mover>(*plugin))
       blaming(*mover, "choose_rotations", [&] { mover->choose_rotations(wanted); });
 }
 
 void Assembly::add_families() {
   for (const auto& plugin : scene_.plugins)
-    if (const auto* law = dynamic_cast<const BondLaw*>(plugin.get())) {
+    if (const auto* law = as_kind<BondLaw>(*plugin)) {
       scene_.families.push_back(law->family());
       scene_.domain->add_family(law->family());
     }
-}
-
-Table* Assembly::table_of(const Plugin& plugin, On on) const {
-  if (on == On::elements) return &scene_.domain->elements();
-  if (on == On::scene) return &scene_.domain->scene();
-  BondTable* family = scene_.domain->find_family(plugin.family());
-  return family ? &family->rows() : nullptr;
 }
 
 // The loops find the members of an element's line side by side in this order, whichever plugin asks first.
@@ -59,56 +66,71 @@ void Assembly::begin_lines() {
   }
 }
 
-// What is kept or added to exists for sure.
+// What is kept or added to exists for sure. What may be derived waits for a reader.
 void Assembly::add_provided() {
   for (const auto& plugin : scene_.plugins) {
+    if (plugin->kind() == Kind::derive) continue;
     for (const FieldUse* use : plugin->uses()) {
-      if (!use->wanted() || use->verb() == Verb::reads || use->verb() == Verb::writes) continue;
-      Table* table = table_of(*plugin, use->field().on);
-      if (!table) continue;
-      Field field = use->field();
-      field.name = plugin->column_name(*use);
-      Column& column = table->add(field);
-      if (use->verb() == Verb::keeps) column.keep();
+      const bool there = use->verb() == Verb::keeps || use->verb() == Verb::adds || use->is_always_there();
+      if (use->wanted() && there) add_columns(*plugin, *use);
     }
   }
 }
 
-void Assembly::meet_readers() {
-  // By index: a reader may bring in a plugin that derives a field, which then reads itself.
-  for (std::size_t p = 0; p < scene_.plugins.size(); ++p) {
-    const Plugin& plugin = *scene_.plugins[p];
-    std::map<On, std::vector<std::string>> missing;
-    for (const FieldUse* use : plugin.uses())
-      if (use->wanted() && use->verb() == Verb::reads && !meet(plugin, *use))
-        missing[use->field().on].push_back(use->field().name);
-    for (const auto& [on, names] : missing) complain_of_missing(plugin, on, names);
-    for (const ParamBase* param : plugin.params())
-      if (param->info().role == Role::fields && param->given()) meet_names(plugin, *param);
+void Assembly::add_columns(const Plugin& plugin, const FieldUse& use) {
+  Field field = use.field();
+  field.name = plugin.column_name(use);
+  for (Table* table : plugin.tables(*scene_.domain, field.on)) {
+    Column& column = table->add(field);
+    if (use.verb() == Verb::keeps) column.keep();
   }
 }
 
-bool Assembly::meet(const Plugin& reader, const FieldUse& use) {
+void Assembly::meet_readers() {
+  // By index: a reader may bring in a plugin that derives a field.
+  for (std::size_t p = 0; p < scene_.plugins.size(); ++p)
+    if (scene_.plugins[p]->kind() != Kind::derive) meet_uses(*scene_.plugins[p]);
+}
+
+void Assembly::meet_uses(const Plugin& reader) {
+  const auto families = reader.families();
+  for (const On on : {On::elements, On::bonds, On::scene})
+    for (std::size_t f = 0; f < (on == On::bonds ? families.size() : 1); ++f) {
+      std::vector<std::string> missing;
+      for (const FieldUse* use : reader.uses())
+        if (use->wanted() && use->verb() == Verb::reads && use->field().on == on && !meet(reader, *use, f))
+          missing.push_back(use->field().name);
+      if (!missing.empty()) complain_of_missing(reader, on, on == On::bonds ? families[f] : "", missing);
+    }
+  for (const ParamBase* param : reader.params())
+    if (param->info().role == Role::fields && param->given()) meet_names(reader, *param);
+}
+
+// Of a field on bonds: in the family of this number among the reader's.
+bool Assembly::meet(const Plugin& reader, const FieldUse& use, std::size_t family) {
   const On on = use.field().on;
-  Table* table = table_of(reader, on);
-  if (!table) return true;  // that there is no such family has been said
-  if (on == On::bonds && provide(on, use.field().name, reader.family())) {
+  const std::string of = on == On::bonds ? reader.families()[family] : "";
+  if (on == On::bonds) {
+    const BondTable* table = scene_.domain->find_family(of);
+    if (!table) return true;  // that there is no such family has been said
+    if (!provide(on, use.field().name, of)) return table->rows().find(reader.column_name(use));
     scene_.section_readers.insert(&reader);
     return true;
   }
   if (on == On::elements && derive(use.field().name, reader)) return true;
-  return table->find(reader.column_name(use)) || provide(on, use.field().name, reader.family());
+  const Table* table = reader.tables(*scene_.domain, on).front();
+  return table->find(reader.column_name(use)) || provide(on, use.field().name, of);
 }
 
-void Assembly::complain_of_missing(const Plugin& reader, On on, const std::vector<std::string>& names) {
-  const std::string holder = on == On::bonds ? fmt::format("bond family '{}'", reader.family()) : "the elements";
+void Assembly::complain_of_missing(const Plugin& reader, On on, const std::string& family,
+                                   const std::vector<std::string>& names) {
+  const std::string holder = on == On::bonds ? fmt::format("bond family '{}'", family) : "the elements";
   std::string listed;
   for (std::size_t k = 0; k < names.size(); ++k)
     listed += fmt::format("{}'{}'", k == 0 ? "" : k + 1 == names.size() ? " and " : ", ", names[k]);
-  complaints_.error(
-      reader.at(),
-      fmt::format("<{}> reads {} of {}, which nothing in this deck provides{}", reader.tag(), listed, holder,
-                  did_you_mean(names.size() == 1 ? names.front() : "", providable(on, reader.family()))));
+  complaints_.error(reader.at(),
+                    fmt::format("<{}> reads {} of {}, which nothing in this deck provides{}", reader.tag(), listed,
+                                holder, did_you_mean(names.size() == 1 ? names.front() : "", providable(on, family))));
 }
 
 // Fields asked for by name, wherever they are: on the elements, on every family that has them.
@@ -160,14 +182,18 @@ bool Assembly::can_derive(const std::string& name) const {
 // writes is written once, so it is kept.
 bool Assembly::provide(On on, const std::string& name, const std::string& family) {
   bool found = false;
-  for (const auto& plugin : scene_.plugins)
-    for (const FieldUse* use : plugin->uses())
-      if (use->wanted() && use->verb() == Verb::writes && use->field().on == on && use->field().name == name &&
-          (on != On::bonds || plugin->family() == family)) {
-        Column& column = table_of(*plugin, on)->add(use->field());
-        if (dynamic_cast<const Filler*>(plugin.get())) column.keep();
-        found = true;
-      }
+  for (const auto& plugin : scene_.plugins) {
+    if (plugin->kind() == Kind::derive || (on == On::bonds && !is_of(*plugin, family))) continue;
+    for (const FieldUse* use : plugin->uses()) {
+      if (!use->wanted() || !is_offered(*use) || use->field().on != on || use->field().name != name) continue;
+      Table& table =
+          on == On::bonds ? scene_.domain->find_family(family)->rows() : *plugin->tables(*scene_.domain, on).front();
+      Column& column = table.add(use->field());
+      if (use->verb() == Verb::sums) column.sum();
+      if (plugin->kind() == Kind::fill) column.keep();
+      found = true;
+    }
+  }
   return found;
 }
 
@@ -175,28 +201,65 @@ bool Assembly::provide(On on, const std::string& name, const std::string& family
 bool Assembly::derive(const std::string& name, const Plugin& reader) {
   if (!catalogue_.find(Kind::derive, name)) return false;
   std::set<const Plugin*> readers{&reader};
-  if (const auto* through = dynamic_cast<const Derived*>(&reader)) readers = scene_.readers_of(*through);
-  for (const Derived* there : scene_.derived)
-    if (there->tag() == name) {
-      scene_.derived_for[there].insert(readers.begin(), readers.end());
-      return true;
-    }
+  if (const auto* through = as_kind<Derived>(reader)) readers = scene_.readers_of(*through);
+  Derived& derived = made_to_derive(name, reader);
+  auto& known = scene_.derived_for[&derived];
+  const bool fresh = known.empty();
+  if (std::includes(known.begin(), known.end(), readers.begin(), readers.end())) return true;
+  known.insert(readers.begin(), readers.end());
+  if (fresh)
+    for (const FieldUse* use : derived.uses())
+      if (use->verb() != Verb::reads) add_columns(derived, *use);
+  meet_uses(derived);                             // whoever reads it reads what it is found from
+  if (fresh) scene_.derived.push_back(&derived);  // behind those
+  return true;
+}
+
+// The one that the deck sets parameters of, or a new one with none.
+Derived& Assembly::made_to_derive(const std::string& name, const Plugin& reader) {
+  for (const auto& plugin : scene_.plugins)
+    if (plugin->kind() == Kind::derive && plugin->tag() == name) return static_cast<Derived&>(*plugin);
   std::unique_ptr<Plugin> plugin = make(Kind::derive, name, reader.at());
   Node silent;
   silent.tag = name;
   silent.at = deck_.root->at;
   plugin->configure(silent, "derive." + name, deck_.scope, complaints_);
-  for (const FieldUse* use : plugin->uses())
-    if (use->verb() != Verb::reads) {
-      Field field = use->field();
-      field.name = plugin->column_name(*use);
-      Column& column = table_of(*plugin, field.on)->add(field);
-      if (use->verb() == Verb::keeps) column.keep();
-    }
-  scene_.derived.push_back(static_cast<Derived*>(plugin.get()));
-  scene_.derived_for[scene_.derived.back()] = readers;
-  scene_.plugins.push_back(std::move(plugin));
-  return true;
+  return static_cast<Derived&>(*scene_.plugins.emplace_back(std::move(plugin)));
+}
+
+bool Assembly::reads_sums(const Derived& derived) const {
+  return std::any_of(derived.uses().begin(), derived.uses().end(), [&](const FieldUse* use) {
+    if (use->verb() != Verb::reads || use->field().on != On::elements) return false;
+    const Column* column = scene_.domain->elements().find(use->field().name);
+    return column && column->summed();
+  });
+}
+
+// Which laws count in the sums that derived fields are found from: one choice for a scene.
+void Assembly::note_sums() {
+  const Derived* first = nullptr;
+  for (const Derived* derived : scene_.derived) {
+    if (!reads_sums(*derived)) continue;
+    const auto& readers = scene_.readers_of(*derived);
+    scene_.section_readers.insert(readers.begin(), readers.end());
+    std::set<const PairLaw*> counting;
+    for (const auto& plugin : scene_.plugins)
+      if (const auto* law = as_kind<BondLaw>(std::as_const(*plugin)); law && derived->sums_over(*law))
+        counting.insert(law);
+    if (first && counting != scene_.summing)
+      complaints_.error(derived->at(),
+                        fmt::format("<{}> sums over other families than <{}>: one choice holds for a scene",
+                                    derived->tag(), first->tag()));
+    first = derived;
+    scene_.summing = counting;
+  }
+}
+
+void Assembly::warn_of_idle() {
+  for (const auto& plugin : scene_.plugins)
+    if (const auto* derived = as_kind<Derived>(std::as_const(*plugin));
+        derived && !scene_.derived_for.contains(derived))
+      complaints_.warning(derived->at(), fmt::format("nothing reads '{}', so it is not found", derived->tag()));
 }
 
 std::vector<std::string> Assembly::providable(On on, const std::string& family) const {
@@ -210,8 +273,8 @@ std::vector<std::string> Assembly::providable(On on, const std::string& family) 
   for (const char* own : {"id", "first", "second", "target"}) names.erase(own);  // what the core keeps for itself
   for (const auto& plugin : scene_.plugins)
     for (const FieldUse* use : plugin->uses())
-      if (use->wanted() && use->verb() == Verb::writes && use->field().on == on &&
-          (on != On::bonds || plugin->family() == family))
+      if (use->wanted() && is_offered(*use) && plugin->kind() != Kind::derive && use->field().on == on &&
+          (on != On::bonds || is_of(*plugin, family)))
         names.insert(use->field().name);
   if (on == On::elements)
     for (const std::string& tag : catalogue_.tags(Kind::derive)) names.insert(tag);

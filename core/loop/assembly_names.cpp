@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/readable.hpp"
 #include "core/base/text.hpp"
@@ -18,7 +19,7 @@ std::set<std::string> Assembly::made_names(Role role, const std::string& what) {
         names.insert(name);
         check_name(*p, name);
         // Filling plugins that work on one set in turn all name it; a family has one law, a region its own set.
-        const auto* filler = dynamic_cast<const Filler*>(plugin.get());
+        const auto* filler = as_kind<Filler>(std::as_const(*plugin));
         const auto [there, fresh] = made.try_emplace(name, p->at());
         if (!fresh && (role == Role::makes_family || (filler && filler->after_filling())))
           complaints_.error(p->at(),
@@ -80,7 +81,7 @@ void Assembly::check_curve_names() {
 std::vector<const Watcher*> Assembly::watchers() const {
   std::vector<const Watcher*> all;
   for (const auto& plugin : scene_.plugins)
-    if (const auto* watcher = dynamic_cast<const Watcher*>(plugin.get())) all.push_back(watcher);
+    if (const auto* watcher = as_kind<Watcher>(std::as_const(*plugin))) all.push_back(watcher);
   return all;
 }
 

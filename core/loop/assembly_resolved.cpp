@@ -48,11 +48,11 @@ PlainNode Assembly::resolved(const Plugin& plugin) {
 
 // What only the loop understands is a text to the plugin.
 std::string Assembly::resolved(const Plugin& plugin, const ParamBase& param) {
-  if (const auto* mover = dynamic_cast<const Mover*>(&plugin); mover && &param == &mover->until) {
+  if (const auto* mover = as_kind<Mover>(plugin); mover && &param == &mover->until) {
     const auto until = Until::compile(*mover->until, param.at(), deck_.scope, complaints_);
     return until ? until->si() : "";
   }
-  if (const auto* watcher = dynamic_cast<const Watcher*>(&plugin); watcher && &param == &watcher->moments) {
+  if (const auto* watcher = as_kind<Watcher>(plugin); watcher && &param == &watcher->moments) {
     std::vector<std::string> marks;
     for (const Mark& mark : Mark::list(*watcher->moments, "at", param.at(), deck_.scope, complaints_))
       marks.push_back(mark.si());

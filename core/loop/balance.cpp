@@ -84,7 +84,7 @@ void Balance::energies(EnergySink& sink) const {
     if (const Real released = state_.released_by(*family); released != 0) sink.dissipated(family->name(), released);
   WithoutKinetic earlier(sink);
   for (const auto& plugin : state_.scene.plugins) {
-    const bool other_mover = dynamic_cast<const Mover*>(plugin.get()) && plugin.get() != &state_.mover();
+    const bool other_mover = plugin->kind() == Kind::move && plugin.get() != &state_.mover();
     blaming(*plugin, state_.moment, [&] { plugin->energy(other_mover ? static_cast<EnergySink&>(earlier) : sink); });
   }
 }

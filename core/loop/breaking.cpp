@@ -20,7 +20,7 @@ void Breaking::heed_events() {
   }
 }
 
-void Breaking::end(BondLaw& law, BondTable& table, std::span<const BondEvent> events) {
+void Breaking::end(PairLaw& law, BondTable& table, std::span<const BondEvent> events) {
   for (const BondEvent& event : events) {
     check_rows({&event.row, 1}, table.size(), "bonds that changed", law, state_.moment);
     blaming(law, state_.moment, [&] { law.end(state_.domain(), table, event.row); });
@@ -37,51 +37,68 @@ void Breaking::judge() {
   balance_.over_break([&] {
     for (const Fallen& each : all) fell(each);
   });
-  for (const auto& [law, table] : state_.laws)
-    if (std::any_of(all.begin(), all.end(),
-                    [&, family = law->family()](const Fallen& each) { return each.first->family() == family; }))
-      table->sweep();
+  links_.clear();
+  for (const auto& [law, table] : state_.laws) table->sweep();
+  offered_.note_broken();
+  fresh_.outdate();
   count_live();
 }
 
 std::vector<Breaking::Fallen> Breaking::fallen() {
   std::vector<Fallen> all;
+  Fallen highest{nullptr, {Judged{}}};
   for (Failure* failure : state_.stage().failures) {
     if (state_.moment.step % *failure->every != 0) continue;
     fresh_.for_criterion(*failure);
     Verdict verdict = fresh_.judge(*failure);
     for (auto& [criterion, use] : state_.uses)
-      if (criterion == failure)
-        use.note(verdict, state_.domain(), *state_.domain().find_family(failure->family()), state_.moment);
-    if (!verdict.fallen.empty()) all.emplace_back(failure, std::move(verdict.fallen));
+      if (criterion == failure) use.note(verdict.highest, state_.domain(), state_.moment);
+    if (verdict.fallen.empty()) continue;
+    if (verdict.highest.utilisation > highest.second.front().utilisation) highest = {failure, {verdict.highest}};
+    all.emplace_back(failure, std::move(verdict.fallen));
   }
+  if (!all.empty() && state_.mover().breaks() == Breaks::highest) return {highest};
   return all;
 }
 
 void Breaking::fell(const Fallen& fallen) {
-  Failure& failure = *fallen.first;
-  const auto acting = std::find_if(state_.laws.begin(), state_.laws.end(),
-                                   [&](const ActingLaw& l) { return l.second->name() == failure.family(); });
-  if (acting == state_.laws.end()) return;
-  BondLaw& law = *acting->first;
-  BondTable& table = *acting->second;
-  for (const Index row : fallen.second) {
-    if (table.state()[row] == State::broken) continue;
-    const Real energy = blaming(law, state_.moment, [&] { return law.stored_energy(state_.domain(), table, row); });
-    note(table, row, blaming(failure, state_.moment, [&] { return failure.mode(); }), energy);
-    state_.released_by(table) += energy;
-    blaming(law, state_.moment, [&] { law.withdraw(state_.domain(), table, row); });
-    table.state()[row] = State::broken;
-    offered_.clear(table, row);
+  for (const Judged& each : fallen.second) {
+    if (each.table)
+      fell_bond(*fallen.first, *each.table, each.row, -1);
+    else
+      fell_element(*fallen.first, each.row);
   }
 }
 
-void Breaking::note(const BondTable& table, Index row, const std::string& mode, Real energy) {
+void Breaking::fell_element(Failure& failure, Index row) {
+  const Index id = state_.domain().elements().column("id").view<Index>()[row];
+  for (const std::string& family : failure.families()) {
+    BondTable& table = *state_.domain().find_family(family);
+    const Links& links = links_.try_emplace(&table, table, state_.domain().size()).first->second;
+    for (const Index bond : links.of(row)) fell_bond(failure, table, bond, id);
+  }
+}
+
+// Once, whoever fells it first: criteria in the order of the deck.
+void Breaking::fell_bond(Failure& failure, BondTable& table, Index row, Index element) {
+  const auto acting =
+      std::find_if(state_.laws.begin(), state_.laws.end(), [&](const ActingLaw& l) { return l.second == &table; });
+  if (acting == state_.laws.end() || table.state()[row] == State::broken) return;
+  PairLaw& law = *acting->first;
+  const Real energy = blaming(law, state_.moment, [&] { return law.stored_energy(state_.domain(), table, row); });
+  note(table, row, blaming(failure, state_.moment, [&] { return failure.mode(); }), energy, element);
+  state_.released_by(table) += energy;
+  blaming(law, state_.moment, [&] { law.withdraw(state_.domain(), table, row); });
+  table.state()[row] = State::broken;
+  offered_.clear(table, row);
+}
+
+void Breaking::note(const BondTable& table, Index row, const std::string& mode, Real energy, Index element) {
   const auto x = state_.domain().elements().column("position").view<Vec3>();
   const Vec3 place = 0.5 * (x[table.first()[row]] + x[table.second()[row]]);
   BreakLog& log = state_.domain().breaks();
   log.breaks.push_back({state_.moment.time, state_.moment.step, state_.number_of(table), table.id()[row],
-                        log.mode(mode), place, energy});
+                        log.mode(mode), place, energy, element});
 }
 
 void Breaking::count_live() {

@@ -2,6 +2,9 @@
 // What breaks: criteria judge one configuration, then their bonds fall; laws tell what has opened by itself. Each is
 // logged with its mode, and its energy booked.
 
+#include <map>
+
+#include "core/domain/links.hpp"
 #include "core/loop/balance.hpp"
 
 namespace beadwork {
@@ -24,11 +27,14 @@ class Breaking {
   Real live() const { return live_; }
 
  private:
-  using Fallen = std::pair<Failure*, std::vector<Index>>;
-  void end(BondLaw& law, BondTable& table, std::span<const BondEvent> events);
+  /// What a criterion lets fall.
+  using Fallen = std::pair<Failure*, std::vector<Judged>>;
+  void end(PairLaw& law, BondTable& table, std::span<const BondEvent> events);
   std::vector<Fallen> fallen();
   void fell(const Fallen& fallen);
-  void note(const BondTable& table, Index row, const std::string& mode, Real energy);
+  void fell_bond(Failure& failure, BondTable& table, Index row, Index element);
+  void fell_element(Failure& failure, Index row);
+  void note(const BondTable& table, Index row, const std::string& mode, Real energy, Index element = -1);
   void count_live();
 
   RunState& state_;
@@ -36,6 +42,7 @@ class Breaking {
   Fresh& fresh_;
   Balance& balance_;
   Real live_ = 0;
+  std::map<const BondTable*, Links> links_;  ///< of families of which an element falls in this step
 };
 
 }  // namespace beadwork

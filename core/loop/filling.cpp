@@ -75,7 +75,7 @@ void pause_before_first_step(const RunOptions& options) {
 
 void fill(RunState& state, const RunOptions& options, std::vector<std::string>& reports) {
   const Scene& scene = state.scene;
-  std::map<std::string, std::any> in_progress;
+  std::map<std::string, std::shared_ptr<PackingInProgress>> in_progress;
   const FillJob job{.seed = scene.seed,
                     .log = options.log,
                     .report =

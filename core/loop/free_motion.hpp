@@ -1,7 +1,6 @@
 #pragma once
 // Bodies that hang together by bonds and that no load holds as a whole: they are named when a stage begins, and how far
-// each goes that way
-// is followed. What nobody holds rolls and drifts of the least cause.   docs/theory/quasi-static.md
+// each goes that way is followed. What nobody holds rolls and drifts of the least cause. docs/theory/quasi-static.md
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

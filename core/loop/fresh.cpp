@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/loop/blame.hpp"
-#include "core/loop/handed_over.hpp"
 
 namespace beadwork {
 
@@ -79,19 +78,14 @@ void Fresh::derive_for(const Plugin& reader) {
 void Fresh::offer() {
   if (!offered_.is_told()) forces_.offer();
   for (Failure* failure : state_.stage().failures) {
-    if (!failure->utilisation || offered_.is_judged(*failure)) continue;
+    if (offered_.is_judged(*failure)) continue;
     for_criterion(*failure);
     judge(*failure);
   }
 }
 
 Verdict Fresh::judge(Failure& failure) {
-  Verdict verdict = blaming(failure, state_.moment, [&] { return offered_.judge(failure, state_.domain()); });
-  const Index bonds = state_.domain().find_family(failure.family())->size();
-  check_rows(verdict.fallen, bonds, "bonds that break", failure, state_.moment);
-  if (verdict.row >= 0)
-    check_rows({&verdict.row, 1}, bonds, "bonds with the largest utilisation", failure, state_.moment);
-  return verdict;
+  return blaming(failure, state_.moment, [&] { return offered_.judge(failure, state_.domain()); });
 }
 
 }  // namespace beadwork

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text.hpp"
 #include "core/plugin/blame.hpp"
 
 namespace beadwork {
@@ -13,33 +14,41 @@ LargestUse::LargestUse(Table& criteria, Index row)
       bond(criteria, "bond", "1", "Id of the bond that has it", row),
       first(criteria, "first", "1", "Id of the bond's first element", row),
       second(criteria, "second", "1", "Id of the bond's second element", row),
-      x(criteria, "x", "m", "Place of the bond's middle along x", row),
-      y(criteria, "y", "m", "Place of the bond's middle along y", row),
-      z(criteria, "z", "m", "Place of the bond's middle along z", row) {
-  bond = -1;
+      element(criteria, "element", "1", "Id of the element that has it", row),
+      x(criteria, "x", "m", "Its place along x, of a bond the middle", row),
+      y(criteria, "y", "m", "Its place along y, of a bond the middle", row),
+      z(criteria, "z", "m", "Its place along z, of a bond the middle", row) {
+  bond = -1, element = -1;
 }
 
-void LargestUse::note(const Verdict& verdict, const Domain& domain, const BondTable& table, const Moment& moment) {
-  if (verdict.row < 0 || !(verdict.largest > value)) return;
-  const auto id = domain.elements().column("id").view<const Index>();
-  const auto at = domain.elements().column("position").view<const Vec3>();
-  const Index i = table.first()[verdict.row], j = table.second()[verdict.row];
-  const Vec3 middle = 0.5 * (at[i] + at[j]);
-  value = verdict.largest, time = moment.time, step = static_cast<Real>(moment.step);
-  bond = static_cast<Real>(table.id()[verdict.row]), first = static_cast<Real>(id[i]),
-  second = static_cast<Real>(id[j]);
-  x = middle[0], y = middle[1], z = middle[2];
+void LargestUse::note(const Judged& highest, const Domain& domain, const Moment& moment) {
+  if (highest.row < 0 || !(highest.utilisation > value)) return;
+  const auto id = domain.elements().column("id").view<Index>();
+  const auto at = domain.elements().column("position").view<Vec3>();
+  value = highest.utilisation, time = moment.time, step = static_cast<Real>(moment.step);
+  Vec3 place;
+  if (highest.table) {
+    const Index i = highest.table->first()[highest.row], j = highest.table->second()[highest.row];
+    place = 0.5 * (at[i] + at[j]);
+    bond = static_cast<Real>(highest.table->id()[highest.row]);
+    first = static_cast<Real>(id[i]), second = static_cast<Real>(id[j]);
+  } else {
+    place = at[highest.row];
+    element = static_cast<Real>(id[highest.row]);
+  }
+  x = place[0], y = place[1], z = place[2];
 }
 
 std::string sentence(const LargestUse& use, const Failure& failure) {
-  const std::string of = fmt::format("<{} of=\"{}\"> ({})", failure.tag(), failure.family(),
+  const std::string of = fmt::format("<{} of=\"{}\"> ({})", failure.tag(), join(failure.families(), " "),
                                      blaming(failure, "mode", [&] { return failure.mode(); }));
-  if (!use.is_there()) return fmt::format("{} has found no bond under load", of);
-  return fmt::format(
-      "largest utilisation of {}: {:.4g} at step {:.0f} ({:.4g} s), bond {:.0f} between elements {:.0f} and {:.0f}, at "
-      "({:.4g}, {:.4g}, {:.4g}) m",
-      of, Real(use.value), Real(use.step), Real(use.time), Real(use.bond), Real(use.first), Real(use.second),
-      Real(use.x), Real(use.y), Real(use.z));
+  if (!use.is_there())
+    return fmt::format("{} has found no {} under load", of, failure.judges_elements() ? "element" : "bond");
+  const std::string whose = failure.judges_elements() ? fmt::format("element {:.0f}", Real(use.element))
+                                                      : fmt::format("bond {:.0f} between elements {:.0f} and {:.0f}",
+                                                                    Real(use.bond), Real(use.first), Real(use.second));
+  return fmt::format("largest utilisation of {}: {:.4g} at step {:.0f} ({:.4g} s), {}, at ({:.4g}, {:.4g}, {:.4g}) m",
+                     of, Real(use.value), Real(use.step), Real(use.time), whose, Real(use.x), Real(use.y), Real(use.z));
 }
 
 }  // namespace beadwork

@@ -14,7 +14,6 @@ class Seen final : public Sight {
   const Domain& domain() const override { return state_.domain(); }
   const Moment& moment() const override { return state_.moment; }
   std::span<const Constraint> constraints() const override { return state_.held(); }
-  const BondLaw* law(const std::string& family) const override { return state_.scene.law_of(family); }
   void energies(EnergySink& sink) const override { balance_.energies(sink); }
   Real initial_energy() const override { return state_.initial_energy; }
   CurveSink& curve(const CurvePlan& plan) override { return record_.curve(plan); }

@@ -9,19 +9,21 @@ Offered::Offered(const Scene& scene) : scene_(scene) {
   for (const auto& plugin : scene.plugins)
     for (const FieldUse* use : plugin->uses()) {
       if (use->verb() != Verb::writes || use->field().on != On::bonds) continue;
-      const BondTable* table = scene.domain->find_family(plugin->family());
-      if (!table) continue;
-      const Column* column = table->rows().find(use->field().name);
-      auto& columns = columns_[table];
-      if (column && !column->kept() && std::find(columns.begin(), columns.end(), column) == columns.end())
-        columns.push_back(column);
+      for (const std::string& family : plugin->families()) {
+        BondTable* table = scene.domain->find_family(family);
+        if (!table) continue;
+        Column* column = table->rows().find(use->field().name);
+        auto& columns = columns_[table];
+        if (column && !column->kept() && std::find(columns.begin(), columns.end(), column) == columns.end())
+          columns.push_back(column);
+      }
     }
 }
 
 void Offered::begin_stage() {
   begin_step();
   for (const auto& [table, columns] : columns_)
-    for (const Column* column : columns) clear(*column, 0, table->size());
+    for (Column* column : columns) clear(*column, 0, table->size());
 }
 
 void Offered::begin_step() {
@@ -30,22 +32,35 @@ void Offered::begin_step() {
   with_utilisation_.clear();
 }
 
-Verdict Offered::judge(Failure& failure, const Domain& domain) {
-  const BondTable& table = *domain.find_family(failure.family());
-  if (with_utilisation_.insert(&table).second)
-    if (const Column* column = table.rows().find(failure.utilisation.field().name)) clear(*column, 0, table.size());
+Verdict Offered::judge(Failure& failure, Domain& domain) {
+  std::vector<std::pair<Column*, std::vector<Real>>> of_others;  // what others have told of the same bonds
+  for (Table* table : failure.tables(domain, failure.utilisation.field().on)) {
+    Column& column = table->column(failure.utilisation.field().name);
+    const bool first = with_utilisation_.insert(&column).second;
+    if (first || !is_read()) continue;
+    const auto told = column.view<Real>();
+    auto& aside = of_others.emplace_back(&column, std::vector<Real>()).second;
+    for (Index row = 0; row < table->size(); ++row) aside.push_back(told[row]);
+  }
   judged_.insert(&failure);
-  return failure.judge(domain, table);
+  failure.judge(domain);
+  Verdict verdict = read_verdict(failure, domain);
+  for (const auto& [column, aside] : of_others) {
+    const auto told = column->view<Real>();
+    for (std::size_t row = 0; row < aside.size(); ++row)
+      told[static_cast<Index>(row)] = std::max(told[static_cast<Index>(row)], aside[row]);
+  }
+  return verdict;
 }
 
 void Offered::clear(const BondTable& table, Index row) const {
   const auto found = columns_.find(&table);
   if (found == columns_.end()) return;
-  for (const Column* column : found->second) clear(*column, row, row + 1);
+  for (Column* column : found->second) clear(*column, row, row + 1);
 }
 
 // Columns of bonds lie plane by plane.
-void Offered::clear(const Column& column, Index begin, Index end) const {
+void Offered::clear(Column& column, Index begin, Index end) const {
   const Type type = column.field().type;
   for (int c = 0; c < components(type); ++c)
     std::memset(column.base() + static_cast<std::size_t>(c) * column.plane() +
@@ -53,9 +68,9 @@ void Offered::clear(const Column& column, Index begin, Index end) const {
                 0, static_cast<std::size_t>(end - begin) * component_bytes(type));
 }
 
-LoadsAside::LoadsAside(const Domain& domain) {
+LoadsAside::LoadsAside(Domain& domain) {
   for (const char* name : {"force", "torque"})
-    if (const Column* column = domain.elements().find(name)) {
+    if (Column* column = domain.elements().find(name)) {
       Kept kept{column->view<Vec3>(), {}};
       for (Index row = 0; row < domain.size(); ++row) kept.sums.push_back(kept.view[row]);
       kept_.push_back(std::move(kept));

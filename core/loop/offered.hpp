@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/loop/scene.hpp"
+#include "core/loop/verdict.hpp"
 
 namespace beadwork {
 
@@ -25,26 +26,28 @@ class Offered {
   /// The laws have told what they offer, with the forces or without them.
   void note_told() { told_ = true; }
   bool is_told() const { return told_; }
-  /// Has a criterion judge, and tell of utilisations, together with others of its family.
-  Verdict judge(Failure& failure, const Domain& domain);
+  /// Has a criterion judge. Where several of one scene judge the same bonds, those who read see the largest utilisation.
+  Verdict judge(Failure& failure, Domain& domain);
   bool is_judged(const Failure& failure) const { return judged_.contains(&failure); }
   /// A bond has broken.
   void clear(const BondTable& table, Index row) const;
+  /// Bonds have broken: sums that are read have to be found without them.
+  void note_broken() { told_ &= scene_.summing.empty(); }
 
  private:
-  void clear(const Column& column, Index begin, Index end) const;
+  void clear(Column& column, Index begin, Index end) const;
 
   const Scene& scene_;
-  std::map<const BondTable*, std::vector<const Column*>> columns_;
+  std::map<const BondTable*, std::vector<Column*>> columns_;
   bool told_ = false;
   std::set<const Failure*> judged_;
-  std::set<const BondTable*> with_utilisation_;  ///< families of which a criterion has told at this step
+  std::set<const Column*> with_utilisation_;  ///< of which a criterion has told at this step
 };
 
 /// Keeps the sums of forces and torques as they are while this lives, whoever adds to them or clears them.
 class LoadsAside {
  public:
-  explicit LoadsAside(const Domain& domain);
+  explicit LoadsAside(Domain& domain);
   LoadsAside(const LoadsAside&) = delete;
   LoadsAside& operator=(const LoadsAside&) = delete;
   ~LoadsAside();

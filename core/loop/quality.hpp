@@ -1,7 +1,7 @@
 #pragma once
 // How good a run is, by figures that its user would otherwise have to find in curves: whether the balance closes,
-// whether it was slow
-// enough, whether what is prescribed is in equilibrium, and whether something rolled away.   docs/theory/quasi-static.md
+// whether it was slow enough, whether what is prescribed is in equilibrium, and whether something rolled away.
+// docs/theory/quasi-static.md
 
 #include <algorithm>
 #include <array>

@@ -246,7 +246,7 @@ void Record::reserve_room() const {
   std::uintmax_t size = std::filesystem::file_size(folder_.checkpoint(), error);
   if (error) {
     size = state_.domain().elements().memory() + state_.domain().scene().memory();
-    for (const auto& [name, list] : state_.domain().lists()) size += list->memory();
+    for (const auto& [name, list] : state_.domain().lists()) size += list.memory();
     for (const auto& family : state_.domain().families()) size += family->rows().memory();
   }
   try {

@@ -18,7 +18,7 @@ struct WatcherState {
 };
 
 /// A bond law that acts in the present stage.
-using ActingLaw = std::pair<BondLaw*, BondTable*>;
+using ActingLaw = std::pair<PairLaw*, BondTable*>;
 
 class RunState {
  public:

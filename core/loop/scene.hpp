@@ -33,6 +33,8 @@ struct Stage {
   /// Of all its loads, in the deck's order.
   std::vector<Constraint> constraints() const;
   bool watched_by(const Watcher& watcher) const;
+  /// All its plugins, laws first.
+  std::vector<const Plugin*> plugins() const;
 };
 
 class Scene {
@@ -57,14 +59,14 @@ class Scene {
   std::set<std::string> libraries;          ///< of the plugins in use, those that a deck has to name
   std::vector<std::string> families;        ///< names, in the order of their tables
   std::unique_ptr<Domain> domain;           ///< with every column that the plugins ask for, and no rows yet
+  std::set<const PairLaw*> summing;         ///< laws whose forces count in the sums that somebody reads
   std::set<const Plugin*> section_readers;  ///< plugins that read what bond laws offer of each bond
   std::map<const Derived*, std::set<const Plugin*>> derived_for;  ///< who reads a derived field, through others too
 
   /// Points the views of all plugins at the columns of the domain: whenever these may have moved.
   void bind() const;
-  /// The stage in which a family first stands.
-  std::size_t first_stage(const BondLaw& law) const;
-  const BondLaw* law_of(const std::string& family) const;
+  /// The number of the stage in which a plugin first stands.
+  std::size_t first_stage(const Plugin& plugin) const;
   /// Paths of the files on which a run depends beside the deck: of data, and plugin libraries that are not the
   /// program's own.
   std::vector<std::string> files() const;

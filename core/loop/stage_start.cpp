@@ -21,8 +21,8 @@ void require_room(const Domain& domain, const BondLaw& law, std::size_t pairs) {
     refuse(law.at(), fmt::format("{} bonds more than the {} that are there cannot be numbered", pairs, domain.bonds()));
 }
 
-bool begins_here(const RunState& state, const BondLaw& law) {
-  return state.scene.first_stage(law) == state.stage_number();
+bool begins_here(const RunState& state, const Plugin& plugin) {
+  return state.scene.first_stage(plugin) == state.stage_number();
 }
 
 void connect_family(RunState& state, BondLaw& law, BondTable& table, const Log& log) {
@@ -68,8 +68,11 @@ void let_laws_act(RunState& state) {
 
 void connect(RunState& state, const Log& log) {
   Domain& domain = state.domain();
-  for (const auto& [law, table] : state.laws)
-    if (begins_here(state, *law)) connect_family(state, *law, *table, log);
+  for (BondLaw* law : state.stage().laws)
+    if (begins_here(state, *law)) connect_family(state, *law, *domain.find_family(law->family()), log);
+  for (Failure* failure : state.stage().failures)
+    if (begins_here(state, *failure))
+      blaming(*failure, state.moment, [&] { failure->begin(domain, state.scene.seed); });
   for (Load* load : state.stage().loads) blaming(*load, state.moment, [&] { load->clear(domain); });
   for (Load* load : state.stage().loads) blaming(*load, state.moment, [&] { load->start(domain); });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/failure.hpp"
+#include "core/base/text.hpp"
 #include "core/loop/json_text.hpp"
 #include "core/plugin/blame.hpp"
 #include "core/version.hpp"
@@ -56,12 +57,17 @@ Json utilisation(const RunState& state, const RunFigures& figures) {
   Json all = Json::object();
   for (const auto& [criterion, use] : state.uses) {
     Json& one = all[criterion->id()];
-    one = {{"of", criterion->family()}, {"mode", mode_of(*criterion, figures)}, {"largest", Real(use.value)}};
+    one = {
+        {"of", join(criterion->families(), " ")}, {"mode", mode_of(*criterion, figures)}, {"largest", Real(use.value)}};
     if (!use.is_there()) continue;
     one["step"] = std::llround(use.step);
     one["time"] = Real(use.time);
-    one["bond"] = std::llround(use.bond);
-    one["elements"] = {std::llround(use.first), std::llround(use.second)};
+    if (criterion->judges_elements()) {
+      one["element"] = std::llround(use.element);
+    } else {
+      one["bond"] = std::llround(use.bond);
+      one["elements"] = {std::llround(use.first), std::llround(use.second)};
+    }
     one["place"] = {Real(use.x), Real(use.y), Real(use.z)};
   }
   return all;
@@ -125,7 +131,6 @@ std::string curve_json(const CurvePlan& plan) {
   if (!plan.x.empty()) json["x"] = plan.x;
   if (!plan.y.empty()) json["y"] = plan.y;
   if (!plan.kind.empty()) json["kind"] = plan.kind;
-  if (!plan.references.empty()) json["references"] = plan.references;
   return json_text(json, 2) + "\n";
 }
 

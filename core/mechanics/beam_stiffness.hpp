@@ -7,10 +7,9 @@
 
 namespace beadwork {
 
-/// Second derivative of (B1) with small angles, d = x2 - x1 as it is now. `with_tension` adds what a present
-/// axial force N does across the beam, N/l: worth it in a static mover, or where N/l exceeds a hundredth of
-/// k_n.
-inline Matrix12 beam_stiffness(const BeamRest<Real>& rest, const Vec3& d, bool with_tension = false) {
+/// Second derivative of (B1) with small angles, d = x2 - x1 as it is now, never negative. A beam that is pulled resists being
+/// moved across its chord by N/l besides: part of the secant, and of the stiffest once it is a hundredth of k_n.
+inline Matrix12 beam_stiffness(const BeamRest<Real>& rest, const Vec3& d, Slope slope) {
   const Real l = d.norm();
   const Vec3 e = d / l;
   const Mat3 along = e * e.transpose();
@@ -24,7 +23,7 @@ inline Matrix12 beam_stiffness(const BeamRest<Real>& rest, const Vec3& d, bool w
   t1.block<3, 3>(0, 3) = across;
   t2.block<3, 3>(0, 9) = across;
 
-  const Real tension = with_tension ? rest.axial * (l - rest.length) / l : 0;
+  const Real tension = stiffness::tension_across(rest.axial, rest.length, l, slope);
   Matrix12 k = stiffness::between_centres(rest.axial * along + tension * across);
   k += rest.bending * (stiffness::square(t1) + stiffness::square(t2) + stiffness::square(t1 + t2));
   k.block<3, 3>(3, 3) += rest.torsion * along;

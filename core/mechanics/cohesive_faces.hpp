@@ -63,8 +63,8 @@ template <class T>
 }
 
 /// `pull` draws the faces together along n, `drag` acts on the second one against u_s. The factor 1 - u.n/l comes from
-/// n, which
-/// turns with the centres; both ends' forces lie on one line, so that angular momentum is kept to round-off.   (C3)
+/// n, which turns with the centres; both ends' forces lie on one line, so that angular momentum is kept to
+/// round-off.   (C3)
 template <class T>
 [[gnu::always_inline]] inline Wrench<T> wrench_of(const PairFaces<T>& at, const T& pull, const Vec<T>& drag) {
   return {(T(1) - at.along / at.length) * drag - pull * at.normal, cross(drag, at.arm1), cross(at.arm2, drag)};

@@ -1,34 +1,23 @@
 #pragma once
-// Stiffness of a cohesive contact about a state. docs/theory/cohesive-contact.md
+// Stiffness of a cohesive contact about a state, never negative. docs/theory/cohesive-contact.md
+// The derivative of its force, which is negative while it softens, comes of the law itself (core/bonds/slope.hpp).
 
 #include "core/mechanics/cohesive_modes.hpp"
 #include "core/mechanics/stiffness.hpp"
 
 namespace beadwork {
 
-enum class CohesiveSlope {
-  undamaged,  ///< k0, as if nothing were damaged: what a time step must be stable for
-  secant,     ///< F/u, never negative: a Newton iteration that does not diverge
-  tangent,    ///< dF/du: -F_c/(u_p - u_e) while softening goes on
-};
-
-/// Stiffness per area of one mode at an opening, given the accepted history [N/m^3].
-inline Real traction_slope(const Softening<Real>& law, Real opening, Real history, CohesiveSlope slope) {
-  if (slope == CohesiveSlope::undamaged || opening < 0) return law.stiffness;
-  const bool softens = opening >= history && opening > law.onset && opening < law.open;
-  if (slope == CohesiveSlope::tangent && softens) return -law.stiffness * law.onset / (law.open - law.onset);
-  return law.stiffness * integrity(law, max(history, opening));
-}
-
-/// The normal law alone. The pull across the chord, F/l, is part of the secant and the tangent.
-inline Matrix12 cohesive_stiffness(const Softening<Real>& law, const CohesiveRest<Real>& rest, const Vec3& d,
-                                   Real history, CohesiveSlope slope) {
+/// The normal law alone: undamaged, or F/u of what is left, with the pull across the chord, F/l.
+inline Matrix12 opening_stiffness(const Softening<Real>& law, const CohesiveRest<Real>& rest, const Vec3& d,
+                                  Real history, Slope slope) {
   const Real l = d.norm();
   const Vec3 n = d / l;
+  if (slope == Slope::stiffest) return stiffness::between_centres(rest.area * law.stiffness * (n * n.transpose()));
   const Real u_n = l - rest.length;
-  const Real along = rest.area * traction_slope(law, u_n, history, slope);
-  const Real pull = slope == CohesiveSlope::undamaged ? 0 : rest.area * traction(law, u_n, history) / l;
-  return stiffness::between_centres(along * (n * n.transpose()) + pull * stiffness::across(n));
+  const Real left = u_n < 0 ? 1 : integrity(law, max(history, u_n));
+  const Real pull = max(0.0, rest.area * traction(law, u_n, history) / l);
+  return stiffness::between_centres(rest.area * left * law.stiffness * (n * n.transpose()) +
+                                    pull * stiffness::across(n));
 }
 
 /// How an opening of the faces follows the twelve coordinates: du_n = normal . dx, du_s = slip dx.
@@ -62,40 +51,14 @@ inline OpeningRows opening_rows(const CarriedFaces<Real>& at) {
   return rows;
 }
 
-/// As if nothing were damaged: what a time step must be stable for. What the present forces add by turning is left out.
+/// With a share of the stiffness of each mode; all of it is what a time step must be stable for. What the present forces do
+/// by turning is left out.
 template <class Modes, class Faces>
-Matrix12 undamaged_stiffness(const Modes& modes, const Faces& at, Real area) {
+Matrix12 shared_stiffness(const Modes& modes, const Faces& at, Real area, const Openings<Real>& share) {
   const OpeningRows rows = opening_rows(at);
   Matrix12 k = Matrix12::Zero();
-  if constexpr (Modes::opens) k += area * modes.normal.stiffness * rows.normal.transpose() * rows.normal;
-  if constexpr (Modes::slides) k += area * modes.shear.stiffness * stiffness::square(rows.slip);
-  return k;
-}
-
-/// Of a pair's independent modes. What the present forces add by turning is left out for the shear.
-template <CohesiveModes modes>
-Matrix12 cohesive_stiffness(const IndependentModes<modes>& laws, const CohesiveRest<Real>& rest,
-                            const PairFaces<Real>& at, const Openings<Real>& history, CohesiveSlope slope) {
-  const Openings<Real> next = laws.next(at.opening, history);
-  const bool failed = slope != CohesiveSlope::undamaged && laws.failed(next);
-  Matrix12 k = Matrix12::Zero();
-  if constexpr (IndependentModes<modes>::opens) {
-    Softening<Real> normal = laws.normal;
-    if (failed && at.opening.normal >= 0) normal.stiffness = 0;
-    k += cohesive_stiffness(normal, rest, at.length * at.normal, history.normal, slope);
-  }
-  if constexpr (IndependentModes<modes>::slides) {
-    if (failed) return k;
-    const Real secant =
-        laws.shear.stiffness * integrity(laws.shear, slope == CohesiveSlope::undamaged ? 0 : next.shear);
-    Mat3 shear = secant * Mat3::Identity();
-    if (at.opening.shear > 0) {
-      const Vec3 way = at.slip / at.opening.shear;
-      shear += (traction_slope(laws.shear, at.opening.shear, history.shear, slope) - secant) * (way * way.transpose());
-    }
-    const stiffness::Matrix3x12 slip = opening_rows(at).slip;
-    k += rest.area * slip.transpose() * shear * slip;
-  }
+  if constexpr (Modes::opens) k += area * share.normal * modes.normal.stiffness * rows.normal.transpose() * rows.normal;
+  if constexpr (Modes::slides) k += area * share.shear * modes.shear.stiffness * stiffness::square(rows.slip);
   return k;
 }
 

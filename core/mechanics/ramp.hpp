@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/types.hpp"
+#include "core/base/prescribed_motion.hpp"
 
 namespace beadwork {
 
@@ -29,10 +29,6 @@ inline Real smooth_step_integral(Real x) {
   if (x >= 1) return x - 0.5;
   return x * x * x * x * (2.5 + x * (-3 + x));
 }
-
-struct PrescribedMotion {
-  Real displacement, velocity, acceleration;
-};
 
 /// A velocity that grows from 0 to `velocity` over the time `rise` and then stays; rise 0 sets it in at once.
 struct SmoothRamp {

@@ -6,11 +6,11 @@
 
 namespace beadwork {
 
-/// k_n along the chord and, if asked for, N/l across it.
-inline Matrix12 spring_stiffness(const SpringRest<Real>& rest, const Vec3& d, bool with_tension = false) {
+/// k_n along the chord and, of what a pulled spring does across it, N/l: see beam_stiffness.
+inline Matrix12 spring_stiffness(const SpringRest<Real>& rest, const Vec3& d, Slope slope) {
   const Real l = d.norm();
   const Vec3 e = d / l;
-  const Real tension = with_tension ? rest.axial * (l - rest.length) / l : 0;
+  const Real tension = stiffness::tension_across(rest.axial, rest.length, l, slope);
   return stiffness::between_centres(rest.axial * (e * e.transpose()) + tension * stiffness::across(e));
 }
 

@@ -8,6 +8,14 @@ namespace beadwork {
 
 using Matrix12 = Eigen::Matrix<Real, 12, 12>;
 
+/// Which slope of the forces is meant by a stiffness.
+enum class Slope {
+  stiffest,  ///< that a bond can come to have from here on: what a time step must be stable for
+  secant,    ///< never negative: what a Newton iteration does not diverge by
+  /// The derivative of the forces at the state and the accepted history, with what the present forces do by turning.
+  consistent,
+};
+
 namespace stiffness {
 
 using Matrix3x12 = Eigen::Matrix<Real, 3, 12>;
@@ -28,6 +36,12 @@ inline Matrix12 between_centres(const Mat3& k) {
   block.block<3, 3>(0, 0) = block.block<3, 3>(6, 6) = k;
   block.block<3, 3>(0, 6) = block.block<3, 3>(6, 0) = -k;
   return block;
+}
+
+/// N/l of a bond that is pulled from its length at rest, N = k (l - L), where a slope that is never negative takes it up.
+inline Real tension_across(Real axial, Real rest_length, Real length, Slope slope) {
+  const Real strain = (length - rest_length) / length;
+  return strain > (slope == Slope::stiffest ? 0.01 : 0) ? axial * strain : 0;
 }
 
 /// a^T a, written out: the three terms of each sum are too few for a general product.

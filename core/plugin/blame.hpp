@@ -1,15 +1,12 @@
 #pragma once
 // What a plugin throws says whose it is: which plugin, where in the deck, and in which of its functions.
 
-#include <string>
+#include "core/base/blame.hpp"
 
 namespace beadwork {
 
 class Plugin;
 
-/// To be called where anything has been caught: throws it again. A Fault explains itself and goes on as it is, and so
-/// does want of memory; anything else, an int too, becomes a PhysicsFailure: `whose` + ": " + what was thrown.
-[[noreturn]] void blame(const std::string& whose);
 /// "deck.xml:3:5: error: plugin bond.rope failed in check"
 std::string whose(const Plugin& plugin, const char* function);
 

@@ -128,7 +128,7 @@ Library open_library(const std::filesystem::path& path, Trust trust) {
   const auto* list = ask([&] { return library->get<ListEntry>(list_entry)(); });
   if (!list) throw LibraryFailure(fmt::format("plugin library {} hands over no list of plugins", path.string()));
   for (const PluginEntry& entry : *list)
-    if (!entry.make || std::find(std::begin(all_kinds), std::end(all_kinds), entry.kind) == std::end(all_kinds))
+    if (!entry.make || !is_kind(entry.kind))
       throw LibraryFailure(
           fmt::format("plugin library {} hands over <{}>, which is of no kind that there is or cannot be made",
                       path.string(), entry.tag));

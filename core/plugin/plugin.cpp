@@ -9,25 +9,13 @@
 
 namespace beadwork {
 
-const char* kind_name(Kind kind) {
-  switch (kind) {
-    case Kind::fill: return "fill";
-    case Kind::bond: return "bond";
-    case Kind::load: return "load";
-    case Kind::move: return "move";
-    case Kind::fail: return "fail";
-    case Kind::derive: return "derive";
-    case Kind::watch: return "watch";
-  }
-  return "";
-}
-
 const char* verb_name(Verb verb) {
   switch (verb) {
     case Verb::reads: return "reads";
     case Verb::adds: return "adds";
     case Verb::writes: return "writes";
     case Verb::keeps: return "keeps";
+    case Verb::sums: return "sums up";
   }
   return "";
 }
@@ -73,23 +61,31 @@ void Plugin::configure(const Node& node, const std::string& id, const Scope& sco
 }
 
 std::string Plugin::column_name(const FieldUse& use) const {
-  return use.field().on == On::scene ? id_ + "." + use.field().name : use.field().name;
+  return use.field().on == On::scene || use.is_own() ? id_ + "." + use.field().name : use.field().name;
 }
 
 void Plugin::bind(Domain& domain) {
   for (FieldUse* use : uses_) {
     // A column to keep may have been made later than the plugin could tell, when its bonds were made.
     if (!use->wanted() && use->verb() != Verb::keeps) continue;
-    Table* table = nullptr;
-    switch (use->field().on) {
-      case On::elements: table = &domain.elements(); break;
-      case On::scene: table = &domain.scene(); break;
-      case On::bonds:
-        if (BondTable* mine = domain.find_family(family())) table = &mine->rows();
-        break;
-    }
-    use->bind(table ? table->find(column_name(*use)) : nullptr);
+    std::vector<Column*> columns;
+    for (Table* table : tables(domain, use->field().on)) columns.push_back(table->find(column_name(*use)));
+    use->bind(columns);
   }
+}
+
+std::vector<Table*> Plugin::tables(Domain& domain, On on) const {
+  if (on == On::elements) return {&domain.elements()};
+  if (on == On::scene) return {&domain.scene()};
+  std::vector<Table*> mine;
+  for (const std::string& family : families())
+    if (BondTable* table = domain.find_family(family)) mine.push_back(&table->rows());
+  return mine;
+}
+
+void Plugin::turn_to(std::size_t family) {
+  for (FieldUse* use : uses_)
+    if (use->field().on == On::bonds) use->turn_to(family);
 }
 
 std::vector<const ParamBase*> Plugin::one_of(const std::string& group) const {

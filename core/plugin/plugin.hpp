@@ -1,6 +1,7 @@
 #pragma once
 // A plugin is its parameters, the fields that it touches, and the one or two functions of its kind (kinds.hpp).
 
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,9 +12,33 @@
 namespace beadwork {
 
 enum class Kind { fill, bond, load, move, fail, derive, watch };
-inline constexpr Kind all_kinds[] = {Kind::fill, Kind::bond,   Kind::load, Kind::move,
-                                     Kind::fail, Kind::derive, Kind::watch};
-const char* kind_name(Kind kind);  ///< the section of the deck and the folder of the sources
+
+struct KindRow {
+  Kind kind;
+  const char* name;  ///< the section of the deck and the folder of the sources
+  bool in_stages;    ///< its section may stand in a stage
+  const char* doc;
+};
+/// All kinds, in the order of the manual.
+inline constexpr KindRow all_kinds[] = {
+    {Kind::fill, "fill", false,
+     "Adds elements and names sets of them. Runs once, before all else, in the deck's order."},
+    {Kind::bond, "bond", true,
+     "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; acts at "
+     "every evaluation of the forces."},
+    {Kind::load, "load", true, "Moves or holds sets of elements, pushes them, or gives them a velocity to start with."},
+    {Kind::move, "move", true, "Advances the scene by one step. A stage has exactly one."},
+    {Kind::fail, "fail", true,
+     "Judges, after the forces, which bonds or elements fail: a bond breaks, an element loses its bonds."},
+    {Kind::derive, "derive", false,
+     "Provides a field that somebody reads, and runs only in the steps in which it is read. It is added by itself; a "
+     "deck names it only to set its parameters."},
+    {Kind::watch, "watch", true, "Looks at the scene every few steps and records. Changes nothing."},
+};
+constexpr const KindRow& row_of(Kind kind) { return all_kinds[static_cast<std::size_t>(kind)]; }
+/// Of what another library hands over.
+constexpr bool is_kind(Kind kind) { return static_cast<std::size_t>(kind) < std::size(all_kinds); }
+constexpr const char* kind_name(Kind kind) { return row_of(kind).name; }
 
 /// Where an energy stands in the balance  work = stored + kinetic + dissipated.
 class EnergySink {
@@ -42,6 +67,7 @@ class Plugin {
   Plugin(const Plugin&) = delete;
   Plugin& operator=(const Plugin&) = delete;
 
+  Kind kind() const { return kind_; }
   const std::string& tag() const { return tag_; }
   /// Unique in its scene, e.g. "watch.force-curve.2": names the plugin's own scene fields and files.
   const std::string& id() const { return id_; }
@@ -56,6 +82,8 @@ class Plugin {
   void configure(const Node& node, const std::string& id, const Scope& scope, Complaints& complaints);
   /// Points the views of all uses at the columns of this domain.
   void bind(Domain& domain);
+  /// The tables on which its fields on elements, bonds (one for each of its families) or the scene live.
+  std::vector<Table*> tables(Domain& domain, On on) const;
   /// Name under which a use's field stands in its table.
   std::string column_name(const FieldUse& use) const;
 
@@ -63,18 +91,31 @@ class Plugin {
   virtual void check(Complaints&) const {}
   /// Drops the uses that the deck's choices make needless.
   virtual void choose() {}
-  /// The family on whose table the fields "on bonds" live.
-  virtual std::string family() const { return ""; }
+  /// The families on whose tables the fields "on bonds" live.
+  virtual std::vector<std::string> families() const { return {}; }
   /// Adds what the plugin knows of the energy balance.
   virtual void energy(EnergySink&) const {}
 
  protected:
-  Plugin() = default;
+  explicit Plugin(Kind kind) : kind_(kind) {}
+
+  /// f(table) for each of its families: meanwhile the fields "on bonds" are those of this one.
+  template <class F>
+  void each_family(const Domain& domain, const F& f) {
+    const std::vector<std::string> names = families();
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      turn_to(k);
+      f(*domain.find_family(names[k]));
+    }
+    if (names.size() > 1) turn_to(0);
+  }
 
  private:
+  void turn_to(std::size_t family);
   void check_groups(Complaints& complaints) const;
   friend class ParamBase;
   friend class FieldUse;
+  Kind kind_;
   std::vector<ParamBase*> params_;
   std::vector<FieldUse*> uses_;
   std::string tag_;
@@ -90,9 +131,19 @@ struct PluginEntry {
   std::unique_ptr<Plugin> (*make)();
 };
 
+/// The plugin as one of kind K; nullptr if it is of another. Classes have no identity across libraries, kinds have.
+template <class K>
+K* as_kind(Plugin& plugin) {
+  return plugin.kind() == K::its_kind ? static_cast<K*>(&plugin) : nullptr;
+}
+template <class K>
+const K* as_kind(const Plugin& plugin) {
+  return plugin.kind() == K::its_kind ? static_cast<const K*>(&plugin) : nullptr;
+}
+
 template <class P>
 PluginEntry entry(const char* tag) {
-  return {P::kind, tag, P::about, []() -> std::unique_ptr<Plugin> { return std::make_unique<P>(); }};
+  return {P::its_kind, tag, P::about, []() -> std::unique_ptr<Plugin> { return std::make_unique<P>(); }};
 }
 
 }  // namespace beadwork

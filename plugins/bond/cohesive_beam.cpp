@@ -4,7 +4,7 @@
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/beam.hpp"
 #include "core/mechanics/beam_stiffness.hpp"
-#include "core/plugin/bond_loop.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork {
 
@@ -56,6 +56,10 @@ struct CohesiveBeamLaw {
   T stored(const At& at, const TurningEnds<T>& ends) const {
     return beam_energy<T>(rest(at), ends.apart, ends.q1, ends.q2).total();
   }
+
+  Matrix12 stiffness(const One& at, const TurningEnds<Real>& ends, Slope slope) const {
+    return beam_stiffness(rest(at), ends.apart, slope);
+  }
 };
 
 /// Beams between elements that had turned before they were bonded: orientations count from the bonding.
@@ -104,11 +108,7 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
       this,
       {.name = "radius-ratio", .range = positive, .doc = "Radius of a beam over the mean radius of its two elements"}};
 
-  Reads<Vec3> position{this, field::position};
-  Reads<Quat> orientation{this, field::orientation};
   Reads<Real> radius{this, field::radius};
-  Adds<Vec3> force{this, field::force};
-  Adds<Vec3> torque{this, field::torque};
   Keeps<Vec3> axis{this,
                    {"axis", On::bonds, "1", "Direction from the first to the second element when the bond was made"}};
   Keeps<Real> length{this, field::rest_length};
@@ -125,6 +125,7 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
   Writes<Real> twisting_moment{this, field::twisting_moment};
 
   void choose() override {
+    BondLawOf::choose();
     reference1.want(false);
     reference2.want(false);
   }
@@ -146,13 +147,6 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
       axial[row] = rest.axial;
       bending[row] = rest.bending;
     }
-  }
-
-  Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
-    const auto rest = columns().rest(One{row, nullptr});
-    const Index i = table.first()[row];
-    const Index j = table.second()[row];
-    return beam_stiffness(rest, position[j] - position[i]);
   }
 
  protected:

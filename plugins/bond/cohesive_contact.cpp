@@ -137,11 +137,7 @@ class CohesiveContact final
                         .optional = true,
                         .variables = {{"x", metre()}, {"y", metre()}, {"z", metre()}}}};
 
-  Reads<Vec3> position{this, field::position};
-  Reads<Quat> orientation{this, field::orientation};
   Reads<Real> radius{this, field::radius};
-  Adds<Vec3> force{this, field::force};
-  Adds<Vec3> torque{this, field::torque};
   Keeps<Real> length{this, field::rest_length};
   Keeps<Real> area{this, {"area", On::bonds, "m2", "Area S that the contact stands for"}};
   Keeps<Vec3> arm1{this, {"arm-1", On::bonds, "m", "Contact point in the first element's body"}};
@@ -179,9 +175,9 @@ class CohesiveContact final
 
   void choose() override {
     const bool slides = *modes != "normal", opens = *modes != "shear";
+    BondLawOf::choose();
     for (FieldUse* use :
-         {static_cast<FieldUse*>(&orientation), static_cast<FieldUse*>(&torque), static_cast<FieldUse*>(&arm1),
-          static_cast<FieldUse*>(&arm2), static_cast<FieldUse*>(&sliding)})
+         {static_cast<FieldUse*>(&arm1), static_cast<FieldUse*>(&arm2), static_cast<FieldUse*>(&sliding)})
       use->want(slides || carried());
     for (FieldUse* use :
          {static_cast<FieldUse*>(&normal1), static_cast<FieldUse*>(&normal2), static_cast<FieldUse*>(&parted)})
@@ -201,6 +197,7 @@ class CohesiveContact final
   }
 
   bool acts_when_broken() const override { return true; }
+  bool is_in_stress() const override { return false; }  // Eq (6) is of beams
 
   void connect(Domain& domain, BondTable& table) override {
     Real sum = 0;
@@ -244,17 +241,6 @@ class CohesiveContact final
         "interface is sheared and take more than their strength and energy; normal=\"plane\", or \"axis\" around a "
         "fibre, gives them the interface's normal",
         tilt_);
-  }
-
-  Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
-    const Index i = table.first()[row], j = table.second()[row];
-    TurningEnds<Real> ends;
-    ends.apart = position[j] - position[i];
-    if (orientation) {
-      ends.q1 = orientation[i];
-      ends.q2 = orientation[j];
-    }
-    return std::visit([&](const auto& value) { return value.undamaged(One{row, nullptr}, ends); }, law());
   }
 
   void end(Domain& domain, BondTable& table, Index row) override {

@@ -3,7 +3,7 @@
 // choice of modes.
 
 #include "core/mechanics/cohesive_stiffness.hpp"
-#include "core/plugin/bond_loop.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork {
 
@@ -54,8 +54,8 @@ struct CohesiveOpening : CohesiveColumns {
     return at(area) * dissipated_per_area<Real>(law, at(largest_opening));
   }
 
-  Matrix12 undamaged(const One& at, const Ends<Real>& ends) const {
-    return cohesive_stiffness(law, rest(at), ends.apart, 0, CohesiveSlope::undamaged);
+  Matrix12 stiffness(const One& at, const Ends<Real>& ends, Slope slope) const {
+    return opening_stiffness(law, rest(at), ends.apart, at(largest_opening), slope);
   }
   bool has_failed(const One& at) const { return at(largest_opening) >= law.open; }
   bool softens(const One& at) const { return at(largest_opening) > law.onset; }
@@ -126,8 +126,12 @@ struct CohesiveFaces : CohesiveColumns {
       return softened;
   }
 
-  Matrix12 undamaged(const One& at, const TurningEnds<Real>& ends) const {
-    return undamaged_stiffness(modes, faces(at, ends), at(area));
+  Matrix12 stiffness(const One& at, const TurningEnds<Real>& ends, Slope slope) const {
+    const auto here = faces(at, ends);
+    const Real size = at(area);
+    const Openings<Real> all{1, 1};
+    return shared_stiffness(
+        modes, here, size, slope == Slope::stiffest ? all : cohesive_state<Modes>(modes, here, size, recall(at)).share);
   }
   bool has_failed(const One& at) const { return modes.failed(recall(at).modes) || recall(at).parted > 0; }
   bool softens(const One& at) const { return modes.softens(recall(at).modes); }

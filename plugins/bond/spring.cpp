@@ -6,7 +6,7 @@
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/spring.hpp"
 #include "core/mechanics/spring_stiffness.hpp"
-#include "core/plugin/bond_loop.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork {
 
@@ -37,6 +37,10 @@ struct SpringLaw {
   T stored(const At& at, const Ends<T>& ends) const {
     return spring_energy<T>(rest(at), ends.apart);
   }
+
+  Matrix12 stiffness(const One& at, const Ends<Real>& ends, Slope slope) const {
+    return spring_stiffness(rest(at), ends.apart, slope);
+  }
 };
 
 /// Spring: resists stretching along the line of centres, and nothing else.   docs/theory/spring.md
@@ -52,9 +56,7 @@ class Spring final : public BondLawOf<SpringLaw> {
                             .doc = "Radius of a spring's section over the mean radius of its two elements",
                             .fallback = "1"}};
 
-  Reads<Vec3> position{this, field::position};
   Reads<Real> radius{this, field::radius};
-  Adds<Vec3> force{this, field::force};
   Keeps<Real> length{this, field::rest_length};
   Keeps<Real> axial{this, {"axial-stiffness", On::bonds, "N/m", "E A / L"}};
   Writes<Real> section_radius{this, field::section_radius};
@@ -73,10 +75,6 @@ class Spring final : public BondLawOf<SpringLaw> {
       length[row] = rest.length;
       axial[row] = rest.axial;
     }
-  }
-
-  Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
-    return spring_stiffness({length[row], axial[row]}, position[table.second()[row]] - position[table.first()[row]]);
   }
 
  protected:

@@ -12,7 +12,7 @@ class Displacement final : public Derived {
   Keeps<Real> noted{this, {"noted", On::scene, "1", "1 once the places of the beginning are known"}};
   Writes<Vec3> displacement{this, {"displacement", On::elements, "m", "Place less the place when the run began"}};
 
-  void derive(Domain& domain) override {
+  void derive(const Domain& domain) override {
     if (noted[0] == 0)
       for (Index row = 0; row < domain.size(); ++row) origin.set(row, position[row]);
     noted[0] = 1;

@@ -1,6 +1,7 @@
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/beam.hpp"
-#include "core/plugin/kinds.hpp"
+#include "core/plugin/failure.hpp"
+#include "plugins/fail/scattered_strength.hpp"
 
 namespace beadwork {
 
@@ -10,8 +11,7 @@ class BondStress final : public Failure {
  public:
   static constexpr const char* about =
       "A bond breaks when the largest stress in its section reaches the strength (BBF)";
-  Param<Real> strength{
-      this, {.name = "strength", .unit = "Pa", .range = positive, .doc = "Stress sigma_fail at which a bond breaks"}};
+  ScatteredStrength strength{this, "Stress sigma_fail at which a bond breaks", On::bonds};
   Param<std::string> measure{this,
                              {.name = "measure",
                               .doc = "axial: N/A, which is all that springs have; axial-bending: largest normal stress "
@@ -24,13 +24,19 @@ class BondStress final : public Failure {
   Reads<Real> section_radius{this, field::section_radius};
 
   void choose() override {
+    strength.choose();
     bending_moment.want(*measure != "axial");
     twisting_moment.want(*measure == "principal");
     chosen_ = *measure == "axial" ? 0 : *measure == "axial-bending" ? 1 : 2;
   }
 
-  Verdict judge(const Domain&, const BondTable& table) override {
-    return judge_each(table, [&](Index b) { return stress(b) / *strength; });
+  void begin(const Domain& domain, std::uint64_t seed) override {
+    Random random = ScatteredStrength::stream(seed, id());
+    each_family(domain, [&](const BondTable& table) { strength.draw(table.id(), table.size(), random); });
+  }
+
+  void judge(const Domain& domain) override {
+    judge_bonds(domain, [&](Index b) { return stress(b) / strength(b); });
   }
 
   std::string mode() const override { return *measure; }

@@ -47,7 +47,7 @@ class PackingStep : public SphereFiller {
     const auto found = job.in_progress->find(*set);
     if (found == job.in_progress->end())
       refuse(at(), fmt::format("set '{}' is no packing in progress: <free-filling> has to come first", *set));
-    auto& progress = *std::any_cast<const std::shared_ptr<PackingInProgress>&>(found->second);
+    auto& progress = *found->second;
     const std::size_t before = progress.packing.warnings.size();
     progress.packing.pause = job.pause;
     progress.packing.tell = teller(job, *this, *set);

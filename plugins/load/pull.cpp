@@ -2,6 +2,7 @@
 
 #include "core/base/text.hpp"
 #include "core/base/units.hpp"
+#include "core/mechanics/ramp.hpp"
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {

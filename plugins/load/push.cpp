@@ -1,4 +1,5 @@
 #include "core/domain/vocabulary.hpp"
+#include "core/mechanics/ramp.hpp"
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {

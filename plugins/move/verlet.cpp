@@ -5,17 +5,17 @@
 
 #include "core/base/sums.hpp"
 #include "core/domain/vocabulary.hpp"
+#include "core/dynamics/beta_damping.hpp"
+#include "core/dynamics/dashpots.hpp"
+#include "core/dynamics/grips.hpp"
+#include "core/dynamics/law_damping.hpp"
+#include "core/dynamics/local_damping.hpp"
+#include "core/dynamics/rayleigh.hpp"
+#include "core/dynamics/shadow.hpp"
+#include "core/dynamics/stability_watch.hpp"
+#include "core/dynamics/stable_step.hpp"
+#include "core/dynamics/verlet_rows.hpp"
 #include "core/plugin/kinds.hpp"
-#include "plugins/move/beta_damping.hpp"
-#include "plugins/move/dashpots.hpp"
-#include "plugins/move/grips.hpp"
-#include "plugins/move/law_damping.hpp"
-#include "plugins/move/local_damping.hpp"
-#include "plugins/move/rayleigh.hpp"
-#include "plugins/move/shadow.hpp"
-#include "plugins/move/stability_watch.hpp"
-#include "plugins/move/stable_step.hpp"
-#include "plugins/move/verlet_rows.hpp"
 
 namespace beadwork {
 
@@ -212,7 +212,7 @@ class Verlet final : public Mover {
     const auto limit = [&](Real dt) {
       StepLimit found = step_limit(
           w, mass.view(), inertia.view(),
-          [&](const BondLaw& law, const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
+          [&](const PairLaw& law, const BondTable& table, Index row, const Vec3& apart) -> Matrix12 {
             if (!std::isfinite(dt)) return Matrix12::Zero();
             const Matrix12 lagging = dashpots_.stiffening(table, row, apart, dt);
             return law.moves() ? Matrix12(lagging + 4 * *beta / dt * law.damping(w.domain(), table, row)) : lagging;
@@ -311,8 +311,7 @@ class Verlet final : public Mover {
   // Both kinds of damping forces; the power of the local one [W].
   Real damp(Workings& w) {
     if (dashpots_.any())
-      dashpots_.act(w.domain(), force.view(), torque.view(),
-                    w.moment().step > w.moment().stage_step ? 0.5 * w.moment().time_step : 0);
+      dashpots_.act(w.domain(), motion(), w.moment().step > w.moment().stage_step ? 0.5 * w.moment().time_step : 0);
     if (*local_damping == 0) return 0;
     return damp_locally(motion(), grips_, *local_damping, 0.5 * *beta * w.moment().time_step);
   }

@@ -44,7 +44,7 @@ class CrackLength final : public Watcher {
   Reads<Real> damage{this, field::damage};
   Reads<Real> area{this, {"area", On::bonds, "m2", "Area that a contact stands for"}};
 
-  std::string family() const override { return *of; }
+  std::vector<std::string> families() const override { return {*of}; }
 
   void check(Complaints& complaints) const override {
     const char* course = "the crack runs from 'from' over 'start' to 'end'";
@@ -88,7 +88,6 @@ class CrackLength final : public Watcher {
                    .title = "Crack length over the whole length",
                    .x = against.given() ? "displacement" : "time",
                    .y = {"crack length open", "crack length damaged", "process zone"},
-                   .references = {},
                    .kind = ""};
     if (reference.given()) {
       const Real displacement = row[0];

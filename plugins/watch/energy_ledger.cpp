@@ -20,7 +20,6 @@ class EnergyLedger final : public Watcher {
                 .title = "Energy balance",
                 .x = "time",
                 .y = {"work", "stored", "kinetic", "dissipated", "residual"},
-                .references = {},
                 .kind = "ledger"})
         .row(row);
   }

@@ -55,7 +55,6 @@ class ForceCurve final : public Watcher {
                    .title = *title,
                    .x = "displacement",
                    .y = {"force"},
-                   .references = {},
                    .kind = ""};
     std::vector<Real> row{displacement, force};
     if (reference.given()) {

@@ -34,7 +34,7 @@ void chunks(benchmark::State& state) {
   use_threads(static_cast<int>(state.range(0)));
   Scene scene;
   for (auto _ : state) {
-    bond_loop::run<Pass{}>(scene.law, *scene.table, scene.domain, true);
+    bond_loop::run<Pass{}>(scene.law, *scene.table, lines_of(scene.domain), scene.domain.size(), true);
     scene.domain.gather();
   }
   report(state, scene);
@@ -51,7 +51,7 @@ struct NoLaw {
 void chunks_without_law(benchmark::State& state) {
   use_threads(static_cast<int>(state.range(0)));
   Scene scene;
-  for (auto _ : state) bond_loop::run<Pass{}>(NoLaw{}, *scene.table, scene.domain, true);
+  for (auto _ : state) bond_loop::run<Pass{}>(NoLaw{}, *scene.table, lines_of(scene.domain), scene.domain.size(), true);
   report(state, scene);
 }
 
@@ -84,7 +84,7 @@ void stored(benchmark::State& state) {
     line.insert(line.end(), list.begin(), list.end());
     begin.push_back(line.size());
   }
-  const ElementLines elements = ElementLines::of(scene.domain);
+  const ElementLines elements = lines_of(scene.domain);
   Real* sums = base(scene.domain.elements().column("force").view<Vec3>());
   const Index *first = &table.first()[0], *second = &table.second()[0];
   for (auto _ : state) {
@@ -173,7 +173,7 @@ void both_ends(benchmark::State& state) {
   Scene scene;
   const Halves halves(scene);
   const Beams law = halves.law();
-  const ElementLines elements = ElementLines::of(scene.domain);
+  const ElementLines elements = lines_of(scene.domain);
   Real* sums = base(scene.domain.elements().column("force").view<Vec3>());
   const Index length = block_length(scene.domain.size());
   const std::size_t blocks = halves.cuts.size() - 1;

@@ -9,7 +9,7 @@
 #include "core/domain/domain.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/beam.hpp"
-#include "core/plugin/bond_loop.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork::speed {
 
@@ -63,6 +63,14 @@ struct Beams {
 };
 
 /// The lattice as the core has it.
+/// What a law that turns reads and adds to.
+inline ElementLines lines_of(Domain& domain) {
+  Table& elements = domain.elements();
+  return ElementLines({elements.column("position").view<Vec3>(), elements.column("orientation").view<Quat>(), {}, {},
+                       elements.column("force").view<Vec3>(), elements.column("torque").view<Vec3>(), {}, {},
+                       domain.size()});
+}
+
 struct Scene {
   Lattice lattice;
   Domain domain;

@@ -1,9 +1,7 @@
 // What a bond law may read, and what it has to say: mistakes are errors of the compiler.
-#include <gtest/gtest.h>
-
 #include <type_traits>
 
-#include "core/plugin/bond_loop.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork {
 namespace {
@@ -70,22 +68,12 @@ concept Acts = requires(Law law, EndsOf<Law, Real> ends) {
 static_assert(Acts<Honest>);
 static_assert(!Acts<Forgetful>);
 
-class WithoutDamping : public BondLawOf<Honest> {
- public:
-  void connect(Domain&, BondTable&) override {}
-  Matrix12 tangent(const Domain&, const BondTable&, Index) const override { return Matrix12::Zero(); }
-
- protected:
-  AnyLaw law() const override { return Honest{}; }
+struct Thorough : Honest {
+  Matrix12 damping(const One&, const MovingEnds<Real>&) const { return Matrix12::Zero(); }
 };
-class WithDamping : public WithoutDamping {
- public:
-  Matrix12 damping(const Domain&, const BondTable&, Index) const override { return Matrix12::Zero(); }
-};
-static_assert(std::is_abstract_v<WithoutDamping>);
-static_assert(!std::is_abstract_v<WithDamping>);
-
-TEST(BondEnds, a_law_that_moves_says_so_to_the_time_step) { EXPECT_TRUE(WithDamping().moves()); }
+static_assert(!SaysHowItDamps<Honest>);
+static_assert(SaysHowItDamps<Thorough>);
+static_assert(SaysHowItDamps<Still>);
 
 }  // namespace
 }  // namespace beadwork

@@ -85,7 +85,7 @@ class WiredLaw final : public Wired<BondLaw> {
   Real stored_energy(const Domain&, const BondTable&, Index) const override { return wire("stored_energy of one"), 0; }
   Real stored_energy(const Domain&, const BondTable&) const override { return wire("stored_energy"), 0; }
   Real dissipated_energy(const Domain&, const BondTable&) const override { return wire("dissipated_energy"), 0; }
-  Matrix12 tangent(const Domain&, const BondTable&, Index) const override { return Matrix12::Zero(); }
+  Matrix12 tangent(const Domain&, const BondTable&, Index, Slope) const override { return Matrix12::Zero(); }
 };
 
 class WiredLoad final : public Wired<Load> {
@@ -134,9 +134,10 @@ class WiredFail final : public Wired<Failure> {
  public:
   static constexpr const char* about = "Breaks all";
   WiredFail() : Wired("fail") {}
-  Verdict judge(const Domain&, const BondTable& table) override {
+  void begin(const Domain&, std::uint64_t) override { wire("begin"); }
+  void judge(const Domain& domain) override {
     wire("judge");
-    return table.live() > 0 ? Verdict{{0}, 1, 0} : Verdict{};
+    judge_bonds(domain, [](Index row) { return row == 0 ? 1 : 0; });
   }
   std::string mode() const override { return wire("mode"), "broken"; }
 };
@@ -146,7 +147,7 @@ class WiredDerive final : public Wired<Derived> {
   static constexpr const char* about = "Derives a field";
   Writes<Real> field{this, {.name = "wired", .on = On::elements, .type = Type::real, .unit = "1", .doc = "A field"}};
   WiredDerive() : Wired("derive") {}
-  void derive(Domain&) override { wire("derive"); }
+  void derive(const Domain&) override { wire("derive"); }
 };
 
 class WiredWatch final : public Wired<Watcher> {
@@ -239,7 +240,7 @@ TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
                                      "fail constructor",
                                      "fail check",
                                      "fail choose",
-                                     "fail judge",
+                                     "fail begin", "fail judge",
                                      "fail mode",
                                      "fail energy",
                                      "derive constructor",

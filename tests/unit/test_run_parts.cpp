@@ -77,17 +77,18 @@ constexpr const char* chain = R"(<scene>
   <watch><counting name="a" every="2"/><counting name="b" every="1" at="3, 5"/></watch>
 </scene>)";
 
-/// Names rows, and remembers what it saw.
+/// Finds what it is told, by row, and remembers what it saw.
 class Picky final : public Failure {
  public:
   static constexpr const char* about = "Breaks what it is told to";
   Param<std::string> name{this, {.name = "name", .doc = "Name"}};
-  Verdict judge(const Domain&, const BondTable& table) override {
-    seen.push_back(table.live());
-    return *name == "one" ? one : two;
+  void judge(const Domain& domain) override {
+    seen.push_back(domain.find_family(of->front())->live());
+    const auto& found = *name == "one" ? one : two;
+    judge_bonds(domain, [&](Index row) { return row < Index(found.size()) ? found[std::size_t(row)] : 0; });
   }
   std::string mode() const override { return *name; }
-  static inline Verdict one, two;
+  static inline std::vector<Real> one, two;
   static inline std::vector<Index> seen;
 };
 
@@ -112,7 +113,7 @@ TEST(Breaking, fells_once_what_several_criteria_name_and_lets_all_see_one_config
   for (int k = 0; k < 5; ++k) parts.step();
   EXPECT_EQ(parts.breaking.live(), 3);
   Picky::seen.clear();
-  Picky::one = {{0, 2}, 1.5, 2}, Picky::two = {{1, 2}, 1.2, 1};
+  Picky::one = {1.1, 0, 1.5}, Picky::two = {0, 1.2, 1.1};
   EnergySums before;
   parts.fresh.complete();
   parts.balance.energies(before);
@@ -153,7 +154,6 @@ class NowhereToWrite final : public Sight {
   const Domain& domain() const override { return parts_.state.domain(); }
   const Moment& moment() const override { return parts_.state.moment; }
   std::span<const Constraint> constraints() const override { return parts_.state.held(); }
-  const BondLaw* law(const std::string&) const override { return nullptr; }
   void energies(EnergySink&) const override {}
   Real initial_energy() const override { return 0; }
   CurveSink& curve(const CurvePlan&) override { throw std::logic_error("no curve here"); }

@@ -32,7 +32,7 @@ std::vector<Index> telling_rows(Index rows, std::size_t bytes_a_row) {
   return {0, 1, wrapped - 1, wrapped, wrapped + 1, rows - 2, rows - 1};
 }
 
-void write_and_read_back(const Table& table, const std::vector<Index>& rows) {
+void write_and_read_back(Table& table, const std::vector<Index>& rows) {
   const auto position = table.column("position").view<Vec3>();
   const auto orientation = table.column("orientation").view<Quat>();
   for (const Index row : rows) {

@@ -1,15 +1,15 @@
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/spring_stiffness.hpp"
-#include "core/plugin/bond_loop.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork::ropes {
 
 /// The law: a small value with the columns and numbers of the ropes, and what is done with one of them. T is the number
-/// type, Real or a pack of as many as the processor takes at once: nothing may branch on it.
+/// type, Real, a pack of as many as the processor takes at once, or a number with its slopes: nothing may branch on it.
 struct RopeLaw {
   View<const Real> length;
   View<Real> stretch;  // null where nobody reads it
-  Real stiffness;
+  Real stiff;
 
   static constexpr bool turns = false;  // reads no orientations and gives no torques
 
@@ -17,7 +17,7 @@ struct RopeLaw {
   [[gnu::always_inline]] Wrench<T> act(const At& at, const Ends<T>& ends) const {
     const T distance = sqrt(dot(ends.apart, ends.apart));
     const T longer = distance - at(length);
-    const T pull = max(T(0), T(stiffness) * longer);
+    const T pull = max(T(0), T(stiff) * longer);
     if constexpr (pass.sections)
       if (stretch) at.store(stretch, longer / at(length));
     return {(-pull / distance) * ends.apart, zero<Vec<T>>(), zero<Vec<T>>()};  // on the second element
@@ -26,7 +26,13 @@ struct RopeLaw {
   template <class At, class T>
   T stored(const At& at, const Ends<T>& ends) const {
     const T longer = max(T(0), sqrt(dot(ends.apart, ends.apart)) - at(length));
-    return T(0.5 * stiffness) * longer * longer;
+    return T(0.5 * stiff) * longer * longer;
+  }
+
+  // For the time step, the stiffest that the bond can become, and for static movers one that is never negative. The
+  // derivative of `act` is found from `act` itself.
+  Matrix12 stiffness(const One& at, const Ends<Real>& ends, Slope slope) const {
+    return spring_stiffness({at(length), stiff}, ends.apart, slope);
   }
 };
 
@@ -38,9 +44,8 @@ class Rope final : public BondLawOf<RopeLaw> {
   // What the deck gives: name, unit, range and one line of help. `name`, `between` and `gap` come with every bond law.
   Param<Real> stiffness{this, {.name = "stiffness", .unit = "N/m", .range = positive, .doc = "Force over elongation"}};
 
-  // What it touches. Nothing else exists for it, and nothing is allocated that no plugin names.
-  Reads<Vec3> position{this, field::position};
-  Adds<Vec3> force{this, field::force};
+  // What it touches besides places and forces, which every bond law does. Nothing else exists for it, and nothing is
+  // allocated that no plugin names.
   Keeps<Real> length{this, field::rest_length};
   Writes<Real> stretch{this, {"stretch", On::bonds, "1", "Elongation over the length at rest, negative when slack"}};
 
@@ -48,12 +53,6 @@ class Rope final : public BondLawOf<RopeLaw> {
   void connect(Domain&, BondTable& table) override {
     for (Index row = 0; row < table.size(); ++row)
       length[row] = (position[table.second()[row]] - position[table.first()[row]]).norm();
-  }
-
-  // For the time step and for static movers: the stiffest that the bond can become. Several threads ask at once.
-  Matrix12 tangent(const Domain&, const BondTable& table, Index row) const override {
-    const Vec3 apart = position[table.second()[row]] - position[table.first()[row]];
-    return spring_stiffness({length[row], *stiffness}, apart);
   }
 
  protected:

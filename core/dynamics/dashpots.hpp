@@ -1,9 +1,8 @@
 #pragma once
 // Bond damping: dashpots beside the springs of each bond. They oppose what parts the two ends, and nothing else: a body
-// that
-// moves and turns as one is not braked, and both momenta are kept.   docs/theory/verlet.md
+// that moves and turns as one is not braked, and both momenta are kept. docs/theory/verlet.md
 //
-//   F  = -c_n (v.n) n - c_t s                v = v2 - v1,  s = v - (v.n) n - (w1 + w2)/2 x d     on end 2, the opposite on 1
+//   F  = -c_n (v.n) n - c_t s                v = v2 - v1,  s = v - (v.n) n - (w1 + w2)/2 x d     on end 2, and back on 1
 //   T1 = -d x F/2 + C (w2 - w1)              C = c_b (1 - n n) + c_w n n
 //   T2 = -d x F/2 - C (w2 - w1)
 //   c = 2 zeta sqrt(k m)                     with the stiffness k and the reduced mass or inertia m of each mode
@@ -14,9 +13,10 @@
 
 #include "core/base/parallel.hpp"
 #include "core/base/sums.hpp"
+#include "core/dynamics/motion.hpp"
 #include "core/mechanics/dashpot.hpp"
-#include "core/plugin/bond_loop.hpp"
-#include "plugins/move/motion.hpp"
+#include "core/plugin/blame.hpp"
+#include "core/plugin/bond_law_of.hpp"
 
 namespace beadwork {
 
@@ -81,31 +81,33 @@ class Dashpots {
   }
 
   /// Adds their forces to those that are there; what they added is remembered for `power`.
-  void act(Domain& domain, const View<Vec3>& force, const View<Vec3>& torque, Real half_step) {
-    pushed_.resize(static_cast<std::size_t>(domain.size()));
-    turned_.resize(torque ? pushed_.size() : 0);
+  void act(Domain& domain, const Motion& all, Real half_step) {
+    pushed_.resize(static_cast<std::size_t>(all.count));
+    turned_.resize(all.torque ? pushed_.size() : 0);
     each_shared(
-        domain.size(),
+        all.count,
         [&](Index i) {
-          pushed_[static_cast<std::size_t>(i)] = force[i];
-          if (torque) turned_[static_cast<std::size_t>(i)] = torque[i];
+          pushed_[static_cast<std::size_t>(i)] = all.force[i];
+          if (all.torque) turned_[static_cast<std::size_t>(i)] = all.torque[i];
         },
         few);
     domain.clear_halo();
+    const ElementLines lines(
+        {all.place, all.orientation, all.velocity, all.spin, all.force, all.torque, {}, {}, all.count});
     for (const Family& f : families_) {
-      if (torque)
-        bond_loop::run<Pass{}>(DashpotLaw<true>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain,
-                               false);
+      if (all.torque)
+        bond_loop::run<Pass{}>(DashpotLaw<true>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, lines,
+                               all.count, false);
       else
-        bond_loop::run<Pass{}>(DashpotLaw<false>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, domain,
-                               false);
+        bond_loop::run<Pass{}>(DashpotLaw<false>{f.along, f.across, f.bending, f.twisting, half_step}, *f.table, lines,
+                               all.count, false);
     }
     domain.gather();
     each_shared(
-        domain.size(),
+        all.count,
         [&](Index i) {
-          pushed_[static_cast<std::size_t>(i)] = force[i] - pushed_[static_cast<std::size_t>(i)];
-          if (torque) turned_[static_cast<std::size_t>(i)] = torque[i] - turned_[static_cast<std::size_t>(i)];
+          pushed_[static_cast<std::size_t>(i)] = all.force[i] - pushed_[static_cast<std::size_t>(i)];
+          if (all.torque) turned_[static_cast<std::size_t>(i)] = all.torque[i] - turned_[static_cast<std::size_t>(i)];
         },
         few);
   }
@@ -144,16 +146,16 @@ class Dashpots {
     View<Real> along, across, bending, twisting;
   };
 
-  static void fill(const Domain& domain, const BondLaw& law, const Family& family, Real zeta,
+  static void fill(const Domain& domain, const PairLaw& law, const Family& family, Real zeta,
                    const View<const Real>& mass, const View<const Real>& inertia) {
     const auto position = domain.elements().column("position").view<Vec3>();
     const BondTable& table = *family.table;
     for (const Chunk& chunk : table.chunks())
       for (Index b = chunk.begin; b < chunk.live_end; ++b) {
         const Index i = table.first()[b], j = table.second()[b];
-        const DashpotRates c = dashpot_rates(blaming(law, "tangent", [&] { return law.tangent(domain, table, b); }),
-                                             position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j],
-                                             inertia ? 1 / inertia[i] + 1 / inertia[j] : 0);
+        const DashpotRates c = dashpot_rates(
+            blaming(law, "tangent", [&] { return law.tangent(domain, table, b, Slope::stiffest); }),
+            position[j] - position[i], zeta, 1 / mass[i] + 1 / mass[j], inertia ? 1 / inertia[i] + 1 / inertia[j] : 0);
         family.along[b] = c.along;
         family.across[b] = c.across;
         family.bending[b] = c.bending;

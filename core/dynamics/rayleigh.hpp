@@ -1,13 +1,13 @@
 #pragma once
 // How fast the motion itself is, against the step: the Rayleigh quotient of the stiffness in the direction in which the
-// elements move, found from
-// the forces of two steps alone and so without any tangent that a bond law states.   docs/theory/verlet.md
+// elements move, found from the forces of two steps alone and so without any tangent that a bond law states.
+// docs/theory/verlet.md
 
 #include <vector>
 
 #include "core/base/sums.hpp"
-#include "plugins/move/grips.hpp"
-#include "plugins/move/motion.hpp"
+#include "core/dynamics/grips.hpp"
+#include "core/dynamics/motion.hpp"
 
 namespace beadwork {
 

@@ -6,8 +6,8 @@
 // has them completed first.
 
 #include "core/domain/rows.hpp"
+#include "core/dynamics/motion.hpp"
 #include "core/mechanics/verlet.hpp"
-#include "plugins/move/motion.hpp"
 
 namespace beadwork {
 

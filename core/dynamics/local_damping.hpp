@@ -2,9 +2,9 @@
 // Cundall's damping: F -= alpha |F| sgn(v), component by component, where nothing prescribes the motion.
 
 #include "core/domain/rows.hpp"
+#include "core/dynamics/grips.hpp"
+#include "core/dynamics/motion.hpp"
 #include "core/mechanics/lane.hpp"
-#include "plugins/move/grips.hpp"
-#include "plugins/move/motion.hpp"
 
 namespace beadwork {
 

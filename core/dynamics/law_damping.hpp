@@ -1,14 +1,13 @@
 #pragma once
 // Bond laws that read velocities: they see those of the step, as far as they can be known before its forces are, and
-// what they take is the
-// force that they gave times the velocity that came of it.   docs/theory/verlet.md
+// what they take is the force that they gave times the velocity that came of it. docs/theory/verlet.md
 
 #include <algorithm>
 #include <vector>
 
 #include "core/base/parallel.hpp"
+#include "core/dynamics/motion.hpp"
 #include "core/plugin/blame.hpp"
-#include "plugins/move/motion.hpp"
 
 namespace beadwork {
 

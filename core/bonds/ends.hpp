@@ -11,6 +11,7 @@
 #include "core/domain/domain.hpp"
 #include "core/mechanics/lane.hpp"
 #include "core/mechanics/rotation.hpp"
+#include "core/mechanics/virial.hpp"
 #include "core/mechanics/wrench.hpp"
 
 namespace beadwork {
@@ -109,41 +110,41 @@ struct Several {
   }
 };
 
+/// What a law reads of the elements and adds to, as its plugin declares it; null where it does not.
+struct ElementViews {
+  View<const Vec3> position;
+  View<const Quat> orientation;
+  View<const Vec3> velocity, spin;
+  View<Vec3> force, torque;
+  View<Sym3> virial;  ///< sums that somebody reads at this evaluation
+  View<Real> virial_trace;
+  Index count = 0;  ///< of the elements
+};
+
 /// The lines of the elements that the loop reads and adds to: position and orientation share one, velocity and spin
 /// another, force and torque a third.
 class ElementLines {
  public:
-  static ElementLines of(const Domain& domain) {
-    const auto base = [&](const char* name) {
-      const Column* column = domain.elements().find(name);
-      return column ? column->base() : nullptr;
-    };
-    ElementLines lines;
-    lines.position_ = base("position");
-    lines.orientation_ = base("orientation");
-    lines.force_ = base("force");
-    lines.torque_ = base("torque");
-    lines.velocity_ = base("velocity");
-    lines.spin_ = base("spin");
-    if (const Column* velocity = domain.elements().find("velocity")) lines.motion_ = velocity->stride();
-    lines.pose_ = domain.elements().column("position").stride();
-    if (const Column* force = domain.elements().find("force")) lines.load_ = force->stride();
-    lines.far_ = static_cast<std::size_t>(domain.size()) * lines.pose_ > near;
-    return lines;
-  }
-
-  /// What a law says of itself must fit what its plugin asked for. Throws std::logic_error.
-  template <class Law>
-  void require() const {
+  /// Throws std::logic_error if what shares a line does not lie side by side.
+  explicit ElementLines(const ElementViews& of)
+      : position_(of.position.base()),
+        orientation_(of.orientation.base()),
+        velocity_(of.velocity.base()),
+        force_(of.force.base()),
+        torque_(of.torque.base()),
+        virial_(of.virial),
+        virial_trace_(of.virial_trace),
+        pose_(of.position.stride()),
+        motion_(of.velocity.stride()),
+        load_(of.force.stride()),
+        far_(static_cast<std::size_t>(of.count) * pose_ > near) {
     const auto beside = [](const std::byte* first, const std::byte* second) {
-      return first && second == first + 3 * sizeof(Real);
+      return !second || (first && second == first + 3 * sizeof(Real));
     };
-    if (!position_ || !force_) throw std::logic_error("a bond law reads position and adds to force");
-    if (torque_ && !beside(force_, torque_)) throw std::logic_error("force and torque share a line, and begin it");
-    if (Law::turns && !(beside(position_, orientation_) && torque_))
-      throw std::logic_error("a bond law that turns reads orientation and adds to torque");
-    if (moves<Law>() && !(velocity_ && (!Law::turns || beside(velocity_, spin_))))
-      throw std::logic_error("a bond law that moves reads velocity, and spin where it turns");
+    if (!beside(position_, orientation_) || !beside(force_, torque_) || !beside(velocity_, of.spin.base()))
+      throw std::logic_error(
+          "what shares a line of the elements lies side by side: position and orientation, velocity and spin, force "
+          "and torque");
   }
 
   template <class Law>
@@ -184,7 +185,7 @@ class ElementLines {
   /// As above for the bonds of several lanes, whose ends stand at i[0], i[1], ... and j[0], j[1], ...
   template <class Law, int W>
   [[gnu::always_inline]] EndsOf<Law, Pack<W>> ends(const Index* i, const Index* j) const {
-    const auto line = [](std::byte* base, std::size_t stride, const Index* of, int half) {
+    const auto line = [](const std::byte* base, std::size_t stride, const Index* of, int half) {
       return pack::fetch<W>([=](int lane) { return at(base, of[lane], stride) + 4 * half; });
     };
     EndsOf<Law, Pack<W>> ends;
@@ -255,6 +256,32 @@ class ElementLines {
     }
   }
 
+  /// Whether somebody reads sums beside those of the forces.
+  [[gnu::always_inline]] bool sums() const { return virial_ || virial_trace_; }
+  /// Adds what a bond gives to the virials of its ends, at the rows of the force line; lane by lane in the order of the bonds.
+  template <int W, class T>
+  [[gnu::always_inline]] void add_virial(const Index* i, const Index* k, const Vec<T>& apart,
+                                         const Vec<T>& force) const {
+    if (virial_trace_) {
+      const T trace = bond_virial_trace(apart, force);
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        virial_trace_[i[lane]] += lane_of(trace, lane);
+        virial_trace_[k[lane]] += lane_of(trace, lane);
+      }
+    }
+    if (virial_) {
+      const Symmetric<T> v = bond_virial(apart, force);
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        const Real terms[] = {lane_of(v.xx, lane), lane_of(v.xy, lane), lane_of(v.xz, lane),
+                              lane_of(v.yy, lane), lane_of(v.yz, lane), lane_of(v.zz, lane)};
+        for (int c = 0; c < 6; ++c) {
+          virial_.at(i[lane], c) += terms[c];
+          virial_.at(k[lane], c) += terms[c];
+        }
+      }
+    }
+  }
+
   /// Lines whole, as nothing but sums of forces and torques stands in them.
   void clear(Index begin, Index end) const {
     std::memset(force_ + static_cast<std::size_t>(begin) * load_, 0, static_cast<std::size_t>(end - begin) * load_);
@@ -270,6 +297,16 @@ class ElementLines {
 
   [[gnu::always_inline]] static Real* at(std::byte* base, Index row, std::size_t stride) {
     return reinterpret_cast<Real*>(base + static_cast<std::size_t>(row) * stride);
+  }
+  [[gnu::always_inline]] static const Real* at(const std::byte* base, Index row, std::size_t stride) {
+    return reinterpret_cast<const Real*>(base + static_cast<std::size_t>(row) * stride);
+  }
+  template <class T>
+  [[gnu::always_inline]] static Real lane_of(const T& value, std::size_t lane) {
+    if constexpr (std::is_same_v<T, Real>)
+      return value;
+    else
+      return value.v[lane];
   }
   /// x2 - x1 where nothing else of the two lines is wanted: subtracted before it is transposed, so that one
   /// transposition does.
@@ -295,11 +332,13 @@ class ElementLines {
     add_to(line + 4, high);
   }
 
-  std::byte *position_ = nullptr, *orientation_ = nullptr, *velocity_ = nullptr, *spin_ = nullptr, *force_ = nullptr,
-            *torque_ = nullptr;
-  std::size_t pose_ = 0, motion_ = 0, load_ = 0;
-  bool far_ = false;
-  static constexpr std::size_t near = 2 << 20;  // bytes of places
+  static constexpr std::size_t near = std::size_t{1} << 21;
+  const std::byte *position_, *orientation_, *velocity_;
+  std::byte *force_, *torque_;
+  View<Sym3> virial_;
+  View<Real> virial_trace_;
+  std::size_t pose_, motion_, load_;
+  bool far_;
 };
 
 }  // namespace beadwork

@@ -10,6 +10,7 @@
 #include "core/base/parallel.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/stability.hpp"
+#include "core/plugin/blame.hpp"
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {
@@ -36,7 +37,7 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
 
   // Each chunk's live bonds follow those of the chunks before, whichever thread asks their law.
   struct Part {
-    const BondLaw* law;
+    const PairLaw* law;
     const BondTable* table;
     Chunk chunk;
     Index begin;  // number in the network of its first bond
@@ -55,8 +56,9 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
     const auto& [law, table, chunk, begin] = part;
     for (Index b = chunk.begin; b < chunk.live_end; ++b) {
       const Index i = table->first()[b], j = table->second()[b];
-      network.set(begin + b - chunk.begin, i, j,
-                  law->tangent(domain, *table, b) + more(*law, *table, b, Vec3(position[j] - position[i])));
+      network.set(
+          begin + b - chunk.begin, i, j,
+          law->tangent(domain, *table, b, Slope::stiffest) + more(*law, *table, b, Vec3(position[j] - position[i])));
     }
   };
   each_shared(parts.size(), [&](std::size_t p) { blaming(*parts[p].law, "tangent", [&] { ask(parts[p]); }); });

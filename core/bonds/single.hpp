@@ -2,8 +2,8 @@
 // Bonds at hand whose forces are found in single precision: columns, and how the ends lie against each other, are
 // narrowed, forces are widened (docs/decisions/mixed-precision.md). The laws that can are beams.
 
+#include "core/bonds/ends.hpp"
 #include "core/mechanics/beam.hpp"
-#include "core/plugin/bond_ends.hpp"
 
 namespace beadwork {
 

@@ -8,7 +8,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/parallel.hpp"
-#include "plugins/move/motion.hpp"
+#include "core/dynamics/motion.hpp"
 
 namespace beadwork {
 

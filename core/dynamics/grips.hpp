@@ -4,8 +4,8 @@
 //
 // Work of a step: the inertia of what is gripped takes just the change of its kinetic energy, which prescribed
 // velocities tell whatever kinks they have. The rest of the reaction does that of the trapezoid, between what it is
-// after the bonds of the last step have broken
-// and what it is before those of this step do: of second order in the step.   docs/theory/verlet.md
+// after the bonds of the last step have broken and what it is before those of this step do: of second order in the
+// step. docs/theory/verlet.md
 //
 // A mean leaves out debris. A loose element, which no bond holds, would take its share of the force and fly away, and
 // the mean would follow it instead of the specimen. What breaks loose later is left out from then on.
@@ -263,7 +263,7 @@ class Grips {
   void note_bonds(const Domain& domain, const std::vector<const BondTable*>& tables,
                   const std::vector<char>& averaged) {
     for (std::size_t f = 0; f < domain.families().size(); ++f) {
-      const BondTable* table = domain.families()[f].get();
+      const BondTable* table = domain.families()[f];
       if (std::find(tables.begin(), tables.end(), table) == tables.end()) continue;
       for (Index b = 0; b < table->size(); ++b)
         if (averaged[static_cast<std::size_t>(table->first()[b])] ||

@@ -1,15 +1,13 @@
-#include "core/plugin/kinds.hpp"
+#include "core/domain/constraint.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "core/base/blame.hpp"
 #include "core/base/failure.hpp"
-#include "core/domain/vocabulary.hpp"
 
 namespace beadwork {
-
-const Field& Failure::field_utilisation() { return field::utilisation; }
 
 PrescribedMotion Constraint::at(Real time) const {
   const auto whose = [&] { return place + ": error: plugin " + by; };

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/sums.hpp"
-#include "plugins/move/grips.hpp"
-#include "plugins/move/motion.hpp"
+#include "core/dynamics/grips.hpp"
+#include "core/dynamics/motion.hpp"
 
 namespace beadwork {
 

@@ -1,11 +1,10 @@
 #pragma once
 // What velocity Verlet keeps is not the energy but the energy less dt^2/8 sum |F|^2/m: near the stable limit the
-// balance swings by as much
-// as the fastest modes hold, and nothing is wrong.   docs/theory/verlet.md
+// balance swings by as much as the fastest modes hold, and nothing is wrong. docs/theory/verlet.md
 
 #include "core/base/sums.hpp"
-#include "plugins/move/grips.hpp"
-#include "plugins/move/motion.hpp"
+#include "core/dynamics/grips.hpp"
+#include "core/dynamics/motion.hpp"
 
 namespace beadwork {
 

@@ -1,0 +1,25 @@
+#pragma once
+// What a criterion has found, read off the utilisations that it has filled.
+
+#include <vector>
+
+#include "core/plugin/failure.hpp"
+
+namespace beadwork {
+
+/// A bond of a family, or an element.
+struct Judged {
+  BondTable* table = nullptr;  ///< null for an element
+  Index row = -1;
+  Real utilisation = 0;
+};
+
+struct Verdict {
+  std::vector<Judged> fallen;  ///< utilisation 1 and more, in the order of the families and of their rows
+  Judged highest;              ///< row -1 where nothing is under load
+};
+
+/// Throws PhysicsFailure, naming the bond or the element, where a utilisation is no number.
+Verdict read_verdict(const Failure& failure, Domain& domain);
+
+}  // namespace beadwork

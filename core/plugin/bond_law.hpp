@@ -1,0 +1,42 @@
+#pragma once
+// Section <bond>: bonds elements, one family for each law.
+
+#include "core/plugin/pair_law.hpp"
+
+namespace beadwork {
+
+class BondLaw : public PairLaw {
+ public:
+  static constexpr Kind its_kind = Kind::bond;
+  BondLaw() : PairLaw(its_kind) {}
+  Param<std::vector<std::string>> between{
+      this,
+      {.name = "between",
+       .doc = "The two sets that are bonded; one and the same for bonds inside a set",
+       .role = Role::set,
+       .count = 2}};
+  Param<Real> gap{
+      this,
+      {.name = "gap",
+       .range = {0, 100},
+       .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
+       .fallback = "1e-3"}};
+  Param<std::string> neighbours{this,
+                                {.name = "neighbours",
+                                 .doc = "Which elements within 'gap' are bonded: all, or the next only, none over a "
+                                        "third that lies between the two: for a row of elements that overlap",
+                                 .fallback = "all",
+                                 .choices = {"all", "next"}}};
+
+  /// Pairs that are to be bonded, at the start of the stage in which the family first stands.
+  virtual bool accepts(const Domain&, Index, Index) const { return true; }
+  /// Sets the rest state of the rows just made. Throws DeckFailure where that is impossible.
+  virtual void connect(Domain& domain, BondTable& table) = 0;
+  /// What the log says once of the bonds just made.
+  virtual std::string remark() const { return ""; }
+  /// What the log warns of once, at the bonds just made: that they will not do what the deck seems to want; "" for
+  /// nothing.
+  virtual std::string caution() const { return ""; }
+};
+
+}  // namespace beadwork

@@ -1,0 +1,52 @@
+#pragma once
+// Section <fail>: judges what may break. What then falls is the core's affair.
+
+#include "core/base/parallel.hpp"
+#include "core/plugin/plugin.hpp"
+
+namespace beadwork {
+
+class Failure : public Plugin {
+ public:
+  static constexpr Kind its_kind = Kind::fail;
+  Param<std::vector<std::string>> of{
+      this, {.name = "of", .doc = "Families of the bonds that may break", .role = Role::family}};
+  Param<std::int64_t> every{
+      this, {.name = "every", .range = {1}, .doc = "Steps from one check to the next", .fallback = "1"}};
+  /// What the criterion finds over its threshold, on the bonds of its families or on the elements. From 1 on a bond
+  /// breaks, or an element loses all its bonds of these families.
+  Writes<Real> utilisation;
+
+  std::vector<std::string> families() const override { return *of; }
+  bool judges_elements() const { return utilisation.field().on == On::elements; }
+
+  /// Once, when the first stage in which it stands begins and its bonds are there: draws what is random.
+  virtual void begin(const Domain&, std::uint64_t /*seed*/) {}
+  /// Fills the utilisation of each live bond, or of each element. Also called at other steps than those of `every`, for
+  /// those who want to see utilisations; then nothing breaks. All criteria see one configuration.
+  virtual void judge(const Domain& domain) = 0;
+  /// Name of the way in which bonds break, for the log.
+  virtual std::string mode() const = 0;
+
+ protected:
+  explicit Failure(On judged = On::bonds);
+
+  /// f(row) is the utilisation of a bond of the family whose columns are seen; the threads share the pass.
+  template <class F>
+  void judge_bonds(const Domain& domain, const F& f) {
+    each_family(domain, [&](const BondTable& table) {
+      each_shared(static_cast<Index>(table.chunks().size()), [&](Index c) {
+        const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
+        for (Index b = chunk.begin; b < chunk.live_end; ++b) utilisation[b] = f(b);
+      });
+    });
+  }
+  /// f(row) is the utilisation of an element.
+  template <class F>
+  void judge_elements(const Domain& domain, const F& f) const {
+    each_shared(
+        domain.size(), [&](Index i) { utilisation[i] = f(i); }, 1024);
+  }
+};
+
+}  // namespace beadwork

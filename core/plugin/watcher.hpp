@@ -1,0 +1,78 @@
+#pragma once
+// Section <watch>: looks and records.
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/domain/constraint.hpp"
+#include "core/domain/moment.hpp"
+#include "core/plugin/plugin.hpp"
+
+namespace beadwork {
+
+/// A table that grows by a row now and then and ends up as a CSV file.
+class CurveSink {
+ public:
+  virtual ~CurveSink() = default;
+  virtual void row(std::span<const Real> values) = 0;
+};
+
+/// What the columns of a curve are, and how it is drawn.
+struct CurvePlan {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> columns;  ///< (name, unit), behind step and time
+  std::string title;
+  std::string x;  ///< column on the abscissa; empty is time
+  std::vector<std::string> y;
+  std::string kind;  ///< "ledger" for an energy balance
+};
+
+/// In the place of the name of a field: all that there are.
+inline constexpr const char* every_field = "all";
+
+struct FramePlan {
+  std::vector<std::string> fields;
+  bool picture = false;
+  std::string view = {};  ///< axis along which the report looks at the frame: x, y, z; empty: it chooses
+};
+
+/// What the loop shows to a watcher.
+class Sight {
+ public:
+  virtual ~Sight() = default;
+  virtual const Domain& domain() const = 0;
+  virtual const Moment& moment() const = 0;
+  virtual std::span<const Constraint> constraints() const = 0;
+  /// Asks every plugin for its share of the energy balance.
+  virtual void energies(EnergySink& sink) const = 0;
+  /// Energy that was there without any work: when the run began, and what the start of a stage has brought [J].
+  virtual Real initial_energy() const = 0;
+  virtual CurveSink& curve(const CurvePlan& plan) = 0;
+  virtual void frame(const FramePlan& plan) = 0;
+};
+
+class Watcher : public Plugin {
+ public:
+  static constexpr Kind its_kind = Kind::watch;
+  Watcher() : Plugin(its_kind) {}
+  Param<std::int64_t> every{
+      this,
+      {.name = "every", .range = {1}, .doc = "Steps from one record to the next", .fallback = "100", .instead = "at"}};
+  Param<std::string> moments{
+      this,
+      {.name = "at",
+       .doc = "Single moments to record, separated by commas: times (1 ms), numbers of steps (5000) or displacements "
+              "of what is pulled (0.3 mm), counted from the start of the stage as in 'until'; 'end' is the end of the "
+              "stage, which is always recorded; beside 'every' or instead of it",
+       .optional = true}};
+  /// True if the watcher looks at this step for its cadence; the loop sees to the moments of 'at' and to the end of the
+  /// stage, and brings up to date what the watcher reads.
+  virtual bool wants(const Moment& moment) const { return every.given() && moment.step % *every == 0; }
+  /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
+  virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}
+  virtual void look(Sight& sight) = 0;
+};
+
+}  // namespace beadwork
