@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/base/failure.hpp"
+#include <stdexcept>
 
 namespace beadwork {
 
@@ -16,7 +16,7 @@ struct Stretch {
 
 [[noreturn]] void refuse_number(const Domain& domain, const BondTable* table, Index row) {
   const auto id = domain.elements().column("id").view<Index>();
-  throw PhysicsFailure(
+  throw std::runtime_error(
       table ? fmt::format("the utilisation of bond {} of '{}', between elements {} and {}, is no number",
                           table->id()[row], table->name(), id[table->first()[row]], id[table->second()[row]])
             : fmt::format("the utilisation of element {} is no number", id[row]));

@@ -19,7 +19,7 @@ struct Verdict {
   Judged highest;              ///< row -1 where nothing is under load
 };
 
-/// Throws PhysicsFailure, naming the bond or the element, where a utilisation is no number.
+/// Throws std::runtime_error, naming the bond or the element, where a utilisation is no number.
 Verdict read_verdict(const Failure& failure, Domain& domain);
 
 }  // namespace beadwork

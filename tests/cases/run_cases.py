@@ -33,6 +33,7 @@ HURRY = {
     "dcb": (600, ["v=200 m/s", "a0=1 mm", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
     "glued-block": (600, ["v=20 m/s", "count=800"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
+    "notched-bar/rdef": (600, ["v=40 m/s", "strength=2 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
 
@@ -40,7 +41,7 @@ WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
 class Case:
     def __init__(self, beadwork, deck, folder):
         self.beadwork, self.folder = beadwork, folder
-        self.steps, self.settings = HURRY.get(deck.parent.name, (STEPS, []))
+        self.steps, self.settings = HURRY.get(f"{deck.parent.name}/{deck.stem}", HURRY.get(deck.parent.name, (STEPS, [])))
         self.every = max(1, self.steps // 20)
         for file in deck.parent.glob("*.xml"):
             shutil.copy(file, folder)
@@ -67,9 +68,9 @@ class Case:
 
     def command(self, out, steps, threads=1, *more):
         """The deck that ends after so many steps; looks often enough to have rows and frames."""
-        text = re.sub(r' until="[^"]*"', f' until="{steps}"', self.deck.read_text())
-        text = re.sub(r' every="[^"]*"', f' every="{self.every}"', text)
-        self.deck.write_text(text)
+        for file in self.folder.glob("*.xml"):  # those that the deck includes too
+            text = re.sub(r' until="[^"]*"', f' until="{steps}"', file.read_text())
+            file.write_text(re.sub(r' every="[^"]*"', f' every="{self.every}"', text))
         return [self.beadwork, "run", "-q", str(self.deck), "--out", str(self.folder / out), "--threads", str(threads),
                 *self.overrides(), *more]
 

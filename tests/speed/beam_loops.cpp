@@ -53,7 +53,7 @@ void core_loop(benchmark::State& state) {
   use_threads(static_cast<int>(state.range(0)));
   speed::Scene scene;
   for (auto _ : state) {
-    bond_loop::run<Pass{}>(scene.law, *scene.table, lines_of(scene.domain), scene.domain.size(), true);
+    bond_loop::run<Pass{}>(scene.law, *scene.table, speed::lines_of(scene.domain), scene.domain.size(), true);
     scene.domain.gather();
   }
   state.counters["bonds"] =

@@ -17,8 +17,9 @@ class Parts : private Workings {
   Catalogue catalogue_;
 
  public:
-  explicit Parts(const std::string& text, const std::vector<PluginEntry>& entries = {})
-      : scene(assemble(text, entries)),
+  explicit Parts(const std::string& text, const std::vector<PluginEntry>& entries = {},
+                 const std::vector<std::filesystem::path>& libraries = {})
+      : scene(assemble(text, entries, libraries)),
         state(*scene),
         offered(*scene),
         forces(state, offered),
@@ -69,12 +70,13 @@ class Parts : private Workings {
                 [this](const std::string& line) { warned.push_back(line); });
     return o;
   }
-  std::unique_ptr<Scene> assemble(const std::string& text, const std::vector<PluginEntry>& entries) {
+  std::unique_ptr<Scene> assemble(const std::string& text, const std::vector<PluginEntry>& entries,
+                                  const std::vector<std::filesystem::path>& libraries) {
     write_text(scratch_ / "deck.xml", text);
     Complaints complaints;
     const auto deck = read_deck((scratch_ / "deck.xml").string(), {}, complaints);
     complaints.throw_if_any();
-    catalogue_ = Catalogue::open({});
+    catalogue_ = Catalogue::open(libraries);
     if (!entries.empty()) catalogue_.add({"no library", "", entries});
     auto made = Scene::assemble(*deck, catalogue_, complaints);
     complaints.throw_if_any();

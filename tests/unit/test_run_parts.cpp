@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/domain/vocabulary.hpp"
 #include "core/io/checkpoint.hpp"
 #include "core/loop/looks.hpp"
@@ -105,7 +107,33 @@ class Counting final : public Watcher {
   static inline std::string fails;
 };
 
-std::vector<PluginEntry> own() { return {entry<Picky>("picky"), entry<Counting>("counting")}; }
+/// Moves nothing, and has what is most overloaded break alone.
+class OneByOne final : public Mover {
+ public:
+  static constexpr const char* about = "Lets one thing break at a time";
+  void choose_rotations(bool) override {}
+  void prepare(Workings& w, bool) override { w.evaluate(true); }
+  void step(Workings& w) override { w.evaluate(true), ++w.moment().step; }
+  Real time_step() const override { return 1; }
+  Breaks breaks() const override { return Breaks::highest; }
+};
+
+/// Judges elements, as it is told by row.
+class PickyOfElements final : public Failure {
+ public:
+  static constexpr const char* about = "Lets those elements fail that it is told to";
+  PickyOfElements() : Failure(On::elements) {}
+  void judge(const Domain& domain) override {
+    judge_elements(domain, [&](Index row) { return row < Index(found.size()) ? found[std::size_t(row)] : 0; });
+  }
+  std::string mode() const override { return "element"; }
+  static inline std::vector<Real> found;
+};
+
+std::vector<PluginEntry> own() {
+  return {entry<Picky>("picky"), entry<Counting>("counting"), entry<OneByOne>("one-by-one"),
+          entry<PickyOfElements>("picky-of-elements")};
+}
 
 TEST(Breaking, fells_once_what_several_criteria_name_and_lets_all_see_one_configuration) {
   Parts parts(chain, own());
@@ -131,6 +159,97 @@ TEST(Breaking, fells_once_what_several_criteria_name_and_lets_all_see_one_config
   const auto force = parts.state.domain().elements().column("force").view<Vec3>();
   for (Index row = 1; row < 3; ++row) EXPECT_LT(Vec3(force[row]).norm(), 1e-15) << "what is broken pulls no longer";
 }
+
+/// The chain above with other sections, between the same elements.
+std::string chain_with(const std::string& bond, const std::string& fail, const std::string& move) {
+  return R"(<scene><fill><lattice set="row" count="4 1 1" radius="1 mm" density="2000 kg/m^3"/></fill><bond>)" + bond +
+         "</bond><fail>" + fail + "</fail><move>" + move +
+         R"(</move><watch><snapshot fields="utilisation" every="1"/></watch></scene>)";
+}
+constexpr const char* spring = R"(<spring name="s" between="row row" young="1 MPa"/>)";
+constexpr const char* verlet = R"(<verlet time-step="1 us" until="100"/>)";
+
+TEST(Breaking, fells_the_highest_alone_where_the_mover_asks_for_it) {
+  Parts parts(
+      chain_with(spring, R"(<picky of="s" name="one"/><picky of="s" name="two"/>)", R"(<one-by-one until="9"/>)"),
+      own());
+  parts.begin();
+  Picky::one = {1.1, 1.3, 0}, Picky::two = {1.2, 0, 1.5};
+  parts.breaking.judge();
+  ASSERT_EQ(parts.state.domain().breaks().breaks.size(), 1u);
+  EXPECT_EQ(parts.state.domain().breaks().breaks[0].bond, 2);
+  EXPECT_EQ(parts.state.domain().breaks().modes[0], "two");
+  Picky::one = {1.1, 1.3}, Picky::two = {1.2, 0};
+  parts.breaking.judge();
+  ASSERT_EQ(parts.state.domain().breaks().breaks.size(), 2u);
+  EXPECT_EQ(parts.state.domain().breaks().breaks[1].bond, 1);
+}
+
+TEST(Breaking, fells_all_bonds_of_an_element_in_the_families_that_are_named_each_once) {
+  const std::string two =
+      R"(<spring name="s" between="row row" young="1 MPa"/><spring name="t" between="row row" young="2 MPa"/>
+    <spring name="u" between="row row" young="3 MPa"/>)";
+  Parts parts(chain_with(two, R"(<picky-of-elements of="s t"/>)", verlet), own());
+  parts.begin();
+  PickyOfElements::found = {0, 1, 1.5, 0};
+  parts.breaking.judge();
+  const BreakLog& log = parts.state.domain().breaks();
+  ASSERT_EQ(log.breaks.size(), 6u) << "three bonds of each of two families";
+  std::vector<Index> whose;
+  for (const Break& b : log.breaks) whose.push_back(b.element);
+  EXPECT_THAT(whose, ElementsAre(1, 1, 1, 1, 2, 2)) << "the bond between two that fail goes with the first";
+  EXPECT_EQ(parts.state.domain().find_family("u")->live(), 3);
+  EXPECT_EQ(parts.state.domain().find_family("s")->live(), 0);
+  EXPECT_EQ(parts.state.uses[0].second.element, 2);
+}
+
+TEST(Breaking, shows_to_readers_the_largest_of_what_several_criteria_find) {
+  Parts parts(chain_with(spring, R"(<picky of="s" name="one"/><picky of="s" name="two"/>)", verlet), own());
+  parts.begin();
+  Picky::one = {0.1, 0.5, 0.2}, Picky::two = {0.4, 0.3, 0.6};
+  parts.breaking.judge();
+  const auto use = parts.state.domain().find_family("s")->rows().column("utilisation").view<Real>();
+  EXPECT_EQ(use[0], 0.4);
+  EXPECT_EQ(use[1], 0.5);
+  EXPECT_EQ(use[2], 0.6);
+}
+
+TEST(Breaking, blames_a_criterion_that_finds_no_number) {
+  Parts parts(chain_with(spring, R"(<picky of="s" name="one"/>)", verlet), own());
+  parts.begin();
+  Picky::one = {0.1, std::nan(""), 0.2};
+  EXPECT_THAT(testing::message_of<PhysicsFailure>([&] { parts.breaking.judge(); }),
+              AllOf(HasSubstr("fail.picky"), HasSubstr("bond 1 of 's', between elements 1 and 2, is no number")));
+}
+
+TEST(Links, lead_from_an_element_to_its_live_bonds) {
+  Parts parts(chain_with(spring, R"(<picky of="s" name="one"/>)", verlet), own());
+  parts.begin();
+  BondTable& table = *parts.state.domain().find_family("s");
+  const Links all(table, 4);
+  EXPECT_THAT(all.of(0), ElementsAre(0));
+  EXPECT_THAT(all.of(1), ElementsAre(0, 1));
+  table.state()[0] = State::broken;
+  table.sweep();
+  const Links left(table, 4);
+  EXPECT_THAT(left.of(0), ElementsAre());
+  ASSERT_EQ(left.of(1).size(), 1u);
+  EXPECT_EQ(table.id()[left.of(1)[0]], 1);
+}
+
+// ---- who may change what
+
+template <class D>
+concept LendsPlaces = requires(D& domain) {
+  domain.elements().column("position").template view<Vec3>().at(0, 0) = 1;
+};
+template <class D>
+concept LetsBreak = requires(D& domain) {
+  domain.find_family("s")->state()[0] = State::broken;
+};
+static_assert(LendsPlaces<Domain> && LetsBreak<Domain>);
+static_assert(!LendsPlaces<const Domain>, "a watcher that moves an element does not compile");
+static_assert(!LetsBreak<const Domain>, "nor does one that breaks a bond");
 
 TEST(Forces, of_an_offer_leave_forces_and_energies_as_they_are) {
   Parts parts(chain, own());
