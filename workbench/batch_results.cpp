@@ -32,7 +32,7 @@ void add_numbers(const Json& object, const std::string& heading, const std::stri
 
 void add_curve(const fs::path& file, Results& results) {
   constexpr std::uintmax_t longest = std::uintmax_t{1} << 31;
-  const report::Table table = report::parse_table(read_text(file, longest), true);
+  const report::Table table = report::parse_table(read_text(file, longest));
   const Json sidecar = bounded_object(fs::path(file).replace_extension(".json"));
   if (sidecar.contains("kind") && sidecar["kind"] == "ledger") return;  // its end stands in the summary
   for (const report::Column& column : table.columns) {

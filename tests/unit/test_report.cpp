@@ -95,8 +95,7 @@ class Report : public testing::Test {
           "0,0,0,0,0\n50,5e-4,1e-4,30,31\n100,1e-3,2e-4,60,59\n");
     write(folder / "curves/force.json",
           R"({"title": "Load", "x": "displacement", "y": ["force"], "x_label": "opening",
-      "x_scale": 1000, "x_unit": "mm", "references": ["paper.csv"]})");
-    write(folder / "curves/references/paper.csv", "opening [mm],Fig 14 [N]\n0,0\n0.2,61\n");
+      "x_scale": 1000, "x_unit": "mm"})");
     write(folder / "curves/energy.csv",
           "step [1],time [s],external work [J],elastic [J],kinetic [J]\n0,0,0,0,0\n100,1e-3,2,1.5,0.48\n");
   }
@@ -140,7 +139,7 @@ TEST_F(Report, has_a_green_badge_of_quality_only_where_it_is_good) {
   EXPECT_THAT(html, HasSubstr("<li>a body of 47 elements was free to move along x, turn about z</li>"));
 }
 
-TEST_F(Report, draws_the_curve_with_its_labels_units_and_references) {
+TEST_F(Report, draws_the_curve_with_its_labels_units_and_reference) {
   make_run();
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("<figcaption>Load</figcaption>"));
@@ -148,7 +147,6 @@ TEST_F(Report, draws_the_curve_with_its_labels_units_and_references) {
   EXPECT_THAT(html, HasSubstr(">force [N]</text>"));
   EXPECT_THAT(html, HasSubstr("Eq (10)"));
   EXPECT_THAT(html, HasSubstr("class=\"line s1 dashed\""));
-  EXPECT_THAT(html, HasSubstr("Fig 14"));
   EXPECT_THAT(html, HasSubstr("opening 0.2 mm  ·  force 60"));  // under the pointer
 }
 
@@ -466,7 +464,7 @@ TEST_F(Report, writes_one_picture_of_the_specimen) {
 }
 
 TEST(ReportTable, a_heading_has_a_name_and_a_unit) {
-  const report::Table table = report::parse_table("force of left [N],ratio\n1,2\nnan,\n", true);
+  const report::Table table = report::parse_table("force of left [N],ratio\n1,2\nnan,\n");
   EXPECT_EQ(table.columns[0].name, "force of left");
   EXPECT_EQ(table.columns[0].unit, "N");
   EXPECT_EQ(table.columns[1].unit, "1");

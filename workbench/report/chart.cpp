@@ -59,15 +59,8 @@ std::string path_of(const Series& s, const Axes& axes) {
 }
 
 std::string line_of(const Series& s, const Axes& axes) {
-  if (s.stroke != Stroke::points)
-    return fmt::format("<path class=\"line s{}{}\" d=\"{}\"/>", s.color, s.stroke == Stroke::dashed ? " dashed" : "",
-                       path_of(s, axes));
-  std::string out;
-  for (std::size_t i = 0; i < s.x.size(); ++i)
-    if (std::isfinite(s.x[i]) && std::isfinite(s.y[i]))
-      out += fmt::format("<circle class=\"point s{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\"/>", s.color,
-                         axes.across(s.x[i]), axes.down(s.y[i]));
-  return out;
+  return fmt::format("<path class=\"line s{}{}\" d=\"{}\"/>", s.color, s.stroke == Stroke::dashed ? " dashed" : "",
+                     path_of(s, axes));
 }
 
 /// Areas share their rows: one thinning for all, or their edges would not meet.
@@ -186,10 +179,7 @@ std::string legend_of(const Chart& chart) {
   if (chart.series.size() == 1 && !chart.y_label.empty()) return "<div class=\"legend\"></div>";  // the axis says it
   std::string out = "<div class=\"legend\">";
   for (const Series& s : chart.series) {
-    const char* kind = s.stroke == Stroke::dashed   ? "dashed"
-                       : s.stroke == Stroke::points ? "ring"
-                       : chart.stacked              ? "block"
-                                                    : "stroke";
+    const char* kind = s.stroke == Stroke::dashed ? "dashed" : chart.stacked ? "block" : "stroke";
     out += fmt::format("<span><i class=\"key {} s{}\"></i>{}</span>", kind, s.color, escaped(s.label));
   }
   return out + "</div>";
@@ -246,7 +236,7 @@ std::string figure(const Chart& chart) {
                      Axes::top - 2, Axes::width - Axes::left - Axes::right + 2,
                      Axes::height - Axes::top - Axes::bottom + 4);
   if (chart.stacked) out += areas_of(chart, axes);
-  for (const Stroke stroke : {Stroke::dashed, Stroke::points, Stroke::solid})
+  for (const Stroke stroke : {Stroke::dashed, Stroke::solid})
     for (const Series& s : chart.series)
       if (s.stroke == stroke && !(chart.stacked && stroke == Stroke::solid)) out += line_of(s, axes);
   out += "</svg>" + leavings_of(chart, axes) + markers_of(chart, axes) + probes_of(chart, axes);

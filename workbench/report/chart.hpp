@@ -7,7 +7,7 @@
 
 namespace beadwork::report {
 
-enum class Stroke { solid, dashed, points };
+enum class Stroke { solid, dashed };
 
 struct Series {
   std::string label;

@@ -60,7 +60,7 @@ std::vector<const Column*> ordinates(const Curve& curve, const Column* x) {
   if (!out.empty()) return out;
   for (const Column& column : curve.table.columns)
     if (&column != x && !is_clock(column) && !column.is_reference()) out.push_back(&column);
-  if (out.empty())  // a table of references only
+  if (out.empty())  // nothing but references
     for (const Column& column : curve.table.columns)
       if (&column != x && !is_clock(column)) out.push_back(&column);
   return out;
@@ -72,13 +72,6 @@ std::string reference_label(const Column& column) {
   return label.empty() ? "reference" : label;
 }
 
-/// A column of a reference file, in the units of the axis: written in them already, or in those of the run.
-std::vector<double> in_units(const Column& column, const std::string& run_unit, const Scale& scale) {
-  if (column.unit == scale.unit) return column.values;
-  if (column.unit == run_unit) return scaled(column.values, scale.factor);
-  return {};
-}
-
 void add_references(Chart& chart, const Curve& curve, const Column& x, const std::string& unit, const Scale& sx,
                     const Scale& sy) {
   int color = static_cast<int>(chart.series.size());
@@ -87,19 +80,6 @@ void add_references(Chart& chart, const Curve& curve, const Column& x, const std
     if (column.is_reference() && column.unit == unit && &column != &x)
       chart.series.push_back({reference_label(column), x_values, scaled(column.values, sy.factor), color++ % colors,
                               Stroke::dashed, true});
-  for (const Reference& reference : curve.references) {
-    const Column& rx = reference.table.columns[0];
-    const Column& ry = reference.table.columns[1];
-    Series series{reference.label,
-                  in_units(rx, x.unit, sx),
-                  in_units(ry, unit, sy),
-                  color % colors,
-                  rx.values.size() <= 60 ? Stroke::points : Stroke::dashed,
-                  true};
-    if (series.x.empty() || series.y.empty()) continue;
-    ++color;
-    chart.series.push_back(std::move(series));
-  }
 }
 
 std::vector<Marker> markers(const Table& table, const std::vector<record::FrameHead>& pictured) {

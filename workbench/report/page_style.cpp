@@ -75,7 +75,6 @@ figure { margin: 0; }
 .key { display: inline-block; vertical-align: middle; margin: -2px 7px 0 0; }
 .key.stroke, .key.dashed { width: 20px; border-top: 2.6px solid var(--s); } .key.dashed { border-top-style: dashed; }
 .key.block { width: 13px; height: 13px; border-radius: 3px; background: var(--s); opacity: .8; }
-.key.ring { width: 9px; height: 9px; border-radius: 50%; border: 1.8px solid var(--s); }
 .key.disc { width: 11px; height: 11px; border-radius: 50%; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 .s0 { --s: var(--c0); } .s1 { --s: var(--c1); } .s2 { --s: var(--c2); } .s3 { --s: var(--c3); }
 .s4 { --s: var(--c4); } .s5 { --s: var(--c5); } .s6 { --s: var(--c6); } .s7 { --s: var(--c7); }
@@ -83,7 +82,6 @@ svg text { fill: var(--soft); font-size: 13px; font-variant-numeric: tabular-num
 .grid { stroke: var(--rule); stroke-width: 1; } .grid.zero, .base { stroke: var(--zero); stroke-width: 1.2; }
 .line { fill: none; stroke: var(--s); stroke-width: 2; stroke-linejoin: round; stroke-linecap: round; }
 .line.dashed { stroke-dasharray: 7 5; stroke-linecap: butt; }
-.point { fill: var(--card); stroke: var(--s); stroke-width: 1.6; }
 .area { fill: var(--s); fill-opacity: .68; stroke: var(--card); stroke-width: .8; }
 .bar { fill: var(--c0); fill-opacity: .75; } .bar:hover { fill-opacity: 1; }
 svg .leaves { fill: var(--ink); font-size: 12px; paint-order: stroke; stroke: var(--card); stroke-width: 4px; }

@@ -66,24 +66,6 @@ void note_dropped(const Table& table, const std::string& name, std::vector<std::
                     " infinite, undefined or too large to be drawn: gaps in the curve.");
 }
 
-/// A reference is named by its file, or by {"file": ..., "label": ...}.
-void read_references(Curve& curve, const fs::path& folder, std::vector<std::string>& notes) {
-  const auto listed = curve.sidecar.find("references");
-  if (listed == curve.sidecar.end() || !listed->is_array()) return;
-  for (const Json& entry : *listed) {
-    const std::string file = entry.is_string() ? entry.get<std::string>() : text_of(entry, "file");
-    const fs::path path = folder / "references" / fs::path(file).filename();
-    Reference reference{text_of(entry, "label"), parse_table(text_of_file(path, longest_text, notes), false)};
-    if (reference.table.columns.size() < 2 || reference.table.rows() == 0) {
-      notes.push_back("The reference curves/references/" + path.filename().string() + " is missing or empty.");
-      continue;
-    }
-    note_dropped(reference.table, "references/" + path.filename().string(), notes);
-    if (reference.label.empty()) reference.label = reference.table.columns[1].name;
-    curve.references.push_back(std::move(reference));
-  }
-}
-
 /// The sidecar's "order" decides; else the load comes first, and what nobody described comes last.
 double place_of(const Curve& curve) {
   const auto order = curve.sidecar.find("order");
@@ -100,14 +82,13 @@ void read_curves(Run& run) {
   for (const fs::path& file : files_ending(folder, ".csv", run.notes)) {
     Curve curve;
     curve.name = file.stem().string();
-    curve.table = parse_table(text_of_file(file, longest_curve, run.notes), true);
+    curve.table = parse_table(text_of_file(file, longest_curve, run.notes));
     note_dropped(curve.table, file.filename().string(), run.notes);
     curve.sidecar = read_json(fs::path(file).replace_extension(".json"), run.notes);
     if (curve.table.rows() == 0) {
       run.notes.push_back("curves/" + file.filename().string() + " holds no rows yet.");
       continue;
     }
-    read_references(curve, folder, run.notes);
     run.curves.push_back(std::move(curve));
   }
   std::stable_sort(run.curves.begin(), run.curves.end(),

@@ -14,16 +14,10 @@ namespace beadwork::report {
 
 using Json = nlohmann::ordered_json;  // keys stay in the order in which the run wrote them
 
-struct Reference {
-  std::string label;
-  Table table;
-};
-
 struct Curve {
   std::string name;  ///< of the file, without its ending
   Table table;
   Json sidecar = Json::object();  ///< how to draw it; empty if there is no such file
-  std::vector<Reference> references;
 };
 
 struct Run {

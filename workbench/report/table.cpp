@@ -67,7 +67,7 @@ const Column* Table::find(const std::string& name) const {
   return found == columns.end() ? nullptr : &*found;
 }
 
-Table parse_table(const std::string& text, bool growing) {
+Table parse_table(const std::string& text) {
   Table table;
   std::string_view rest = text;
   while (!rest.empty()) {
@@ -78,7 +78,7 @@ Table parse_table(const std::string& text, bool growing) {
     if (line.empty() || line.starts_with('#')) continue;
     if (table.columns.empty()) {
       for (const auto cell : cells_of(line)) table.columns.push_back(heading(cell));
-    } else if ((growing && !whole) || !append_row(table, line)) {
+    } else if (!whole || !append_row(table, line)) {
       ++table.dropped_rows;
     }
   }

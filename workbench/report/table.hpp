@@ -21,9 +21,8 @@ struct Table {
   const Column* find(const std::string& name) const;  ///< nullptr if there is none
 };
 
-/// A row that is not whole is dropped and counted. `growing`: a last line without its end is one still being
-/// written.
-Table parse_table(const std::string& text, bool growing);
+/// A row that is not whole is dropped and counted, and so is a last line without its end, which is still being written.
+Table parse_table(const std::string& text);
 
 /// Numbers beyond it are no measure of anything, and their squares overflow.
 constexpr double largest_drawn = 1e150;
