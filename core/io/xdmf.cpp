@@ -27,7 +27,10 @@ std::string data_item(const XdmfGrid& grid, const XdmfArray& array, std::string_
       array.bytes, file, xml_escaped(grid.group), xml_escaped(array.name));
 }
 
-const char* attribute_type(std::size_t width) { return width == 1 ? "Scalar" : width == 3 ? "Vector" : "Matrix"; }
+// Six numbers are a symmetric tensor: xx xy xz yy yz zz, as XDMF has them.
+const char* attribute_type(std::size_t width) {
+  return width == 1 ? "Scalar" : width == 3 ? "Vector" : width == 6 ? "Tensor6" : "Matrix";
+}
 
 std::string attributes(const XdmfGrid& grid, std::string_view skip, const char* center, std::string_view file) {
   std::string out;

@@ -282,6 +282,21 @@ TEST(Recorder, the_view_for_paraview_names_datasets_that_are_there_with_their_ex
   }
 }
 
+TEST(Recorder, a_symmetric_tensor_has_six_numbers_in_the_file_and_is_a_tensor_in_the_view) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  Column& stress = run.domain.elements().add({"stress", On::elements, Type::sym3, "Pa", "Stress", ""});
+  stress.view<Sym3>().set(7, {1, 2, 3, 4, 5, 6});
+  run.recorder.write({0, 0, 0}, {{&stress}, {}, false}, run.domain);
+  const auto written = read_dataset(run.folder.record(), "frames/000000000000/elements/stress");
+  EXPECT_THAT(written.extent, ElementsAre(200u, 6u));
+  EXPECT_EQ(written.unit, "Pa");
+  for (std::size_t c = 0; c < 6; ++c) EXPECT_EQ(written.numbers[6 * 7 + c], static_cast<Real>(c + 1));
+  EXPECT_THAT(text_of(run.folder.view()),
+              HasSubstr("<Attribute Name=\"stress\" AttributeType=\"Tensor6\" Center=\"Node\">"
+                        "<DataItem Dimensions=\"200 6\""));
+}
+
 TEST(Recorder, a_family_without_bonds_is_recorded_and_left_out_of_the_view) {
   const Scratch scratch;
   Recording run(scratch / "out");

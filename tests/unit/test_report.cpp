@@ -86,7 +86,9 @@ class Report : public testing::Test {
       "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
       "utilisation": {"fail.bond-stress": {"of": "interface", "mode": "axial-bending", "largest": 0.8731, "step": 80, "time": 8e-4,
                       "bond": 3, "elements": [3, 9], "place": [0.003, 0, 0.0005]},
-                      "fail.bond-stress.2": {"of": "<i>", "mode": "axial", "largest": 0}},
+                      "fail.bond-stress.2": {"of": "<i>", "mode": "axial", "largest": 0},
+                      "fail.virial-stress": {"of": "resin glue", "mode": "virial-hydrostatic", "largest": 1.038, "step": 90,
+                      "time": 9e-4, "element": 4, "place": [0.004, 0, 0]}},
       "packing": [{"density": 0.615, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
     write(folder / "resolved.xml", "<scene name=\"small\"><fill/></scene><script>alert(1)</script>");
     write(folder / "run.log", "first line\nlast line\n");
@@ -176,7 +178,9 @@ TEST_F(Report, says_how_near_to_breaking_the_run_came_and_where) {
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("<td>interface</td><td>axial-bending</td><td>0.8731</td><td>bond 3 between elements 3, "
                               "9, at (3, 0, 0.5) mm, step 80, 800 µs</td>"));
-  EXPECT_THAT(html, HasSubstr("<td>&lt;i&gt;</td><td>axial</td><td>0</td><td>no bond was under load</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>&lt;i&gt;</td><td>axial</td><td>0</td><td>nothing was under load</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>resin glue</td><td>virial-hydrostatic</td><td>1.038</td><td>element 4, at (4, 0, 0) "
+                              "mm, step 90, 900 µs</td>"));
 }
 
 TEST_F(Report, breaks_and_packing_are_there) {

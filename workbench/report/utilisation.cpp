@@ -25,6 +25,13 @@ std::string list_of(const Json& object, const char* key, double factor) {
   return list;
 }
 
+/// Of a criterion on bonds a bond, of one on elements an element; "" where nothing was under load.
+std::string whose(const Json& use) {
+  if (use.contains("element")) return "element " + number(real_of(use, "element"), 9);
+  if (!use.contains("bond")) return "";
+  return fmt::format("bond {} between elements {}", number(real_of(use, "bond"), 9), list_of(use, "elements", 1));
+}
+
 std::string row(const Json& use) {
   const double largest = real_of(use, "largest"), time = real_of(use, "time");
   const Scale seconds = readable("s", std::isfinite(time) ? time : 0);
@@ -35,11 +42,10 @@ std::string row(const Json& use) {
   const Scale metres = readable("m", size);
   std::string cells = fmt::format("<td>{}</td><td>{}</td><td>{}</td>", escaped(text_of(use, "of")),
                                   escaped(spaced(text_of(use, "mode"))), number(largest));
-  if (!use.contains("bond")) return "<tr>" + cells + "<td>no bond was under load</td></tr>";
-  cells +=
-      fmt::format("<td>bond {} between elements {}, at ({}) {}, step {}, {} {}</td>", number(real_of(use, "bond"), 9),
-                  list_of(use, "elements", 1), list_of(use, "place", metres.factor), metres.unit,
-                  number(real_of(use, "step"), 9), number(time * seconds.factor), seconds.unit);
+  const std::string that = whose(use);
+  if (that.empty()) return "<tr>" + cells + "<td>nothing was under load</td></tr>";
+  cells += fmt::format("<td>{}, at ({}) {}, step {}, {} {}</td>", that, list_of(use, "place", metres.factor),
+                       metres.unit, number(real_of(use, "step"), 9), number(time * seconds.factor), seconds.unit);
   return "<tr>" + cells + "</tr>";
 }
 
@@ -53,7 +59,8 @@ std::string utilisation(const Run& run) {
     if (use.is_object()) rows += row(use);
   if (rows.empty()) return "";
   return section("Utilisation",
-                 "<p>What each criterion has found over its strength, at its largest: bonds break from 1 on.</p><table "
+                 "<p>What each criterion has found over its strength, at its largest: from 1 on a bond breaks, "
+                 "or an element loses its bonds.</p><table "
                  "class=\"facts\"><thead><tr><th>bonds</th><th>criterion</th><th>largest</th><th>where and "
                  "when</th></tr></thead><tbody>" +
                      rows + "</tbody></table>");
