@@ -6,7 +6,8 @@ import sys
 from pathlib import Path
 
 CODE = ["tools/plugin-template/bond/rope.cpp", "tools/plugin-template/load/shake.cpp", "tools/plugin-template/watch/centroid.cpp",
-        "tools/plugin-template/CMakeLists.txt", "tests/architecture/installed_package/tripwire.cpp", "tests/laws/damped_spring.cpp"]
+        "tools/plugin-template/CMakeLists.txt", "tests/architecture/installed_package/tripwire.cpp", "tests/laws/damped_spring.cpp",
+        "plugins/fail/bond_stress.cpp", "plugins/derive/displacement.cpp"]
 
 
 def main():
