@@ -44,9 +44,21 @@ constexpr bool moves() {
   return false;
 }
 
+/// A law with `travels` sees by which velocities its ends came here: those half-way of the step that has just been made.
+template <class Law>
+constexpr bool travels() {
+  if constexpr (requires { Law::travels; }) return Law::travels;
+  return false;
+}
+template <class Law>
+constexpr bool sees_rates() {
+  return moves<Law>() || travels<Law>();
+}
+
 template <class Law, class T>
-using EndsOf = std::conditional_t<moves<Law>(), std::conditional_t<Law::turns, TurningMovingEnds<T>, MovingEnds<T>>,
-                                  std::conditional_t<Law::turns, TurningEnds<T>, Ends<T>>>;
+using EndsOf =
+    std::conditional_t<sees_rates<Law>(), std::conditional_t<Law::turns, TurningMovingEnds<T>, MovingEnds<T>>,
+                       std::conditional_t<Law::turns, TurningEnds<T>, Ends<T>>>;
 
 struct Pass {
   bool settle = false;
@@ -157,7 +169,7 @@ class ElementLines {
       ends.q1 = {q1[0], {q1[1], q1[2], q1[3]}};
       ends.q2 = {q2[0], {q2[1], q2[2], q2[3]}};
     }
-    if constexpr (moves<Law>()) {
+    if constexpr (sees_rates<Law>()) {
       const Real *v1 = at(velocity_, i, motion_), *v2 = at(velocity_, j, motion_);
       ends.v1 = {v1[0], v1[1], v1[2]};
       ends.v2 = {v2[0], v2[1], v2[2]};
@@ -200,7 +212,7 @@ class ElementLines {
       ends.q1 = {a[3], {c[0], c[1], c[2]}};
       ends.q2 = {b[3], {d[0], d[1], d[2]}};
     }
-    if constexpr (moves<Law>()) {  // vx vy vz wx | wy wz
+    if constexpr (sees_rates<Law>()) {  // vx vy vz wx | wy wz
       const auto v = line(velocity_, motion_, i, 0);
       const auto u = line(velocity_, motion_, j, 0);
       ends.v1 = {v[0], v[1], v[2]};

@@ -52,7 +52,7 @@ Matrix12 consistent_stiffness(const Law& law, const One& at, const EndsOf<Law, R
     moved.q1 = turned(ends.q1, 3);
     moved.q2 = turned(ends.q2, 9);
   }
-  if constexpr (moves<Law>()) {
+  if constexpr (sees_rates<Law>()) {
     const auto constant = [](const Vec3& v) { return Vec<Number>{v[0], v[1], v[2]}; };
     moved.v1 = constant(ends.v1), moved.v2 = constant(ends.v2);
     if constexpr (Law::turns) moved.w1 = constant(ends.w1), moved.w2 = constant(ends.w2);

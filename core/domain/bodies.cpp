@@ -29,6 +29,7 @@ std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const
     return row;
   };
   for (const BondTable* table : tables) {
+    if (table->is_of_contacts()) continue;  // what touches does not hang together
     const auto broken = broken_by(domain, *table, when);
     for (Index b = 0; b < table->size(); ++b) {
       if (broken.contains(table->id()[b])) continue;

@@ -53,6 +53,26 @@ void BondTable::create(std::vector<std::pair<Index, Index>> pairs, Index first_i
   }
 }
 
+std::vector<Index> BondTable::renew(const std::vector<std::pair<Index, Index>>& pairs) {
+  std::vector<Index> fresh, origin(pairs.size(), -1);
+  Index old = 0;  // both lists are sorted
+  for (std::size_t row = 0; row < pairs.size(); ++row) {
+    while (old < size() && std::pair(Index(first_[old]), Index(second_[old])) < pairs[row]) ++old;
+    if (old < size() && std::pair(Index(first_[old]), Index(second_[old])) == pairs[row])
+      origin[row] = old;
+    else
+      fresh.push_back(static_cast<Index>(row));
+  }
+  rows_.permute(origin);
+  rebind();
+  for (Index row = 0; row < size(); ++row) id_[row] = row;
+  for (const Index row : fresh) {
+    first_[row] = pairs[static_cast<std::size_t>(row)].first;
+    second_[row] = pairs[static_cast<std::size_t>(row)].second;
+  }
+  return fresh;
+}
+
 Index BondTable::cut(Index elements, Index halo_begin) {
   const Index length = block_length(elements);
   chunks_.assign(static_cast<std::size_t>(block_count(elements)), Chunk{});

@@ -36,11 +36,18 @@ class BondTable {
   const Table& rows() const { return rows_; }
   Index size() const { return rows_.size(); }
   Index live() const;
+  /// Its pairs come and go: they are contacts, not bonds.
+  void let_pairs_come_and_go() { contacts_ = true; }
+  bool is_of_contacts() const { return contacts_; }
+
   /// Broken bonds of this family still act: they are not swept behind the live ones.
   void keep_broken_live() { broken_act_ = true; }
 
   /// Makes one row per pair, first < second, sorted by (first, second); ids count from `first_id`.
   void create(std::vector<std::pair<Index, Index>> pairs, Index first_id);
+  /// Takes other pairs in place of its own, first < second, sorted; what is known of a pair that stays goes with it, all
+  /// else is zero. Returns the rows of pairs that are new. To be cut anew.
+  std::vector<Index> renew(const std::vector<std::pair<Index, Index>>& pairs);
   /// Cuts into chunks for that many elements; halo rows count from `halo_begin`. Returns the end of the halo rows.
   /// Kept columns alone decide the result, so it may be called again after a restart.
   Index cut(Index elements, Index halo_begin);
@@ -70,6 +77,7 @@ class BondTable {
   View<Index> first_, second_, target_, id_;
   View<State> state_;
   bool broken_act_ = false;
+  bool contacts_ = false;
 };
 
 }  // namespace beadwork

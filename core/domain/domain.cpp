@@ -54,6 +54,12 @@ BondTable& Domain::add_family(const std::string& name) {
   return *families_.back();
 }
 
+BondTable& Domain::add_contacts(const std::string& name) {
+  BondTable& table = add_family(name);
+  table.let_pairs_come_and_go();
+  return table;
+}
+
 const BondTable* Domain::find_family(const std::string& name) const {
   for (const auto& family : families_)
     if (family->name() == name) return family.get();
@@ -66,7 +72,8 @@ BondTable* Domain::find_family(const std::string& name) {
 
 Index Domain::bonds() const {
   Index sum = 0;
-  for (const auto& family : families_) sum += family->size();
+  for (const auto& family : families_)
+    if (!family->is_of_contacts()) sum += family->size();
   return sum;
 }
 

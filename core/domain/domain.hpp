@@ -43,6 +43,8 @@ class Domain {
   const Set& set(const std::string& name) const;
 
   BondTable& add_family(const std::string& name);
+  /// A family whose pairs touch without being bonded, and come and go.
+  BondTable& add_contacts(const std::string& name);
   BondTable* find_family(const std::string& name);
   const BondTable* find_family(const std::string& name) const;
   const std::vector<std::unique_ptr<BondTable>>& families() { return families_; }

@@ -169,6 +169,7 @@ void Table::lay_out(const std::string& line, Index old_size, const Index* order)
     offset += in_rows ? bytes(type) : column->plane_ * static_cast<std::size_t>(components(type));
     if (!before.base_) continue;
     for (Index row = 0; row < old_size; ++row) {
+      if (order && order[row] < 0) continue;
       const auto from = static_cast<std::size_t>(order ? order[row] : row);
       for (std::size_t c = 0; c < static_cast<std::size_t>(components(type)); ++c)
         std::memcpy(column->base_ + static_cast<std::size_t>(row) * column->stride_ + c * column->plane_,

@@ -90,7 +90,7 @@ class Table {
   /// Rows beyond `size`, of the columns of `line` only, for sums that are not yet an element's own.
   void resize(Index rows);
   void reserve_beyond(std::string_view line, Index extra);
-  /// New row i takes what stood in row order[i]; the length may shrink.
+  /// New row i takes what stood in row order[i], or is zero where that is -1; the length follows.
   void permute(std::span<const Index> order);
   /// As `permute`, for the rows from `begin` on, in place: views stay valid.
   void permute_range(Index begin, std::span<const Index> order);

@@ -44,7 +44,7 @@ class View {
       return Quat{at(row, 0), Vec3(at(row, 1), at(row, 2), at(row, 3))};
   }
 
-  [[gnu::always_inline]] void set(Index row, const Value& value) const {
+  [[gnu::always_inline]] void set(Index row, const Value& value) const requires(!std::is_const_v<T>) {
     if constexpr (scalar) {
       at(row, 0) = value;
     } else if constexpr (std::is_same_v<Value, Vec3>) {
@@ -58,7 +58,7 @@ class View {
     }
   }
 
-  [[gnu::always_inline]] void add(Index row, const Value& value) const {
+  [[gnu::always_inline]] void add(Index row, const Value& value) const requires(!std::is_const_v<T>) {
     if constexpr (scalar)
       at(row, 0) += value;
     else

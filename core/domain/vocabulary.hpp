@@ -30,6 +30,17 @@ inline const Field rest_length{
 inline const Field utilisation{"utilisation", On::bonds, Type::real, "1", "Failure criterion over its threshold", ""};
 inline const Field damage{"damage", On::bonds, Type::real, "1", "0 undamaged, 1 failed", ""};
 
+// Of pairs that may touch.
+inline const Field contact_length{
+    "contact-length",
+    On::bonds,
+    Type::real,
+    "m",
+    "Distance of the centres below which two elements touch: the sum of their radii, or less where a bond broke",
+    ""};
+inline const Field searched_at{
+    "searched-at", On::elements, Type::vec3, "m", "Place when pairs that may touch were last looked for", ""};
+
 // What a criterion finds over its threshold.
 inline const Field element_utilisation{
     "utilisation", On::elements, Type::real, "1", "Failure criterion over its threshold", ""};

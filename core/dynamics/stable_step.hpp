@@ -22,7 +22,7 @@ struct StepLimit {
 
 /// `more(law, table, row, apart)` is added to the stiffness of each bond.
 template <class More>
-StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
+StepLimit elastic_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
   const Domain& domain = w.domain();
   const auto count = static_cast<std::size_t>(domain.size());
   std::vector<Real> m(count), turning(inertia ? count : 0);
@@ -73,6 +73,18 @@ StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const
     const auto next = std::upper_bound(parts.begin(), parts.end(), found.bound.bond,
                                        [](Index bond, const Part& part) { return bond < part.begin; });
     limit.by += fmt::format(" (stiffest bond: one of '{}')", std::prev(next)->table->name());
+  }
+  return limit;
+}
+
+/// The same, or what a law wants to be resolved (PairLaw::longest_step) where that is shorter.
+template <class More>
+StepLimit step_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
+  StepLimit limit = elastic_limit(w, mass, inertia, more);
+  for (const auto& [law, table] : w.laws()) {
+    const Real longest = blaming(*law, "longest_step", [&, law = law] { return law->longest_step(w.domain()); });
+    if (longest < limit.time_step)
+      limit = {longest, fmt::format("limited by '{}', whose collisions are to be resolved", law->family())};
   }
   return limit;
 }

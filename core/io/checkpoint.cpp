@@ -186,7 +186,7 @@ void require_whole(const Domain& domain) {
   for (const auto& family : domain.families()) {
     require_range(family->first(), family->size(), elements, "first end of a bond of '" + family->name() + "':");
     require_range(family->second(), family->size(), elements, "second end of a bond of '" + family->name() + "':");
-    require_ids(family->id(), family->size(), bond_ids, "bonds");
+    if (!family->is_of_contacts()) require_ids(family->id(), family->size(), bond_ids, "bonds");
     for (Index row = 0; row < family->size(); ++row)
       if (family->state()[row] > State::broken)
         throw MachineFailure(fmt::format("a bond of '{}' is in no state that there is", family->name()));

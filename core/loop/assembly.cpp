@@ -29,9 +29,9 @@ constexpr InStage in_stage{K::its_kind,
                            [](const Stage& stage, std::vector<const Plugin*>& all) {
                              all.insert(all.end(), (stage.*list).begin(), (stage.*list).end());
                            }};
-constexpr InStage stage_kinds[] = {in_stage<BondLaw, &Stage::laws>, in_stage<Load, &Stage::loads>,
-                                   in_stage<Mover, &Stage::movers>, in_stage<Failure, &Stage::failures>,
-                                   in_stage<Watcher, &Stage::watchers>};
+constexpr InStage stage_kinds[] = {in_stage<BondLaw, &Stage::laws>,     in_stage<ContactLaw, &Stage::contacts>,
+                                   in_stage<Load, &Stage::loads>,       in_stage<Mover, &Stage::movers>,
+                                   in_stage<Failure, &Stage::failures>, in_stage<Watcher, &Stage::watchers>};
 
 /// The kind whose section this is, where such a section may stand.
 const KindRow* section(const std::string& tag, bool inside_stage) {
@@ -120,8 +120,9 @@ void Assembly::run() {
   if (is_read(Kind::load)) complain_of_hopeless();
   if (complaints_.errors() == 0) {  // else a law or a load may be missing that is only misspelt
     for (const Stage& stage : scene_.stages)
-      blaming(stage.mover(), "check_stage",
-              [&] { stage.mover().check_stage(stage.name, !stage.laws.empty(), complaints_); });
+      blaming(stage.mover(), "check_stage", [&] {
+        stage.mover().check_stage(stage.name, !stage.laws.empty() || !stage.contacts.empty(), complaints_);
+      });
     check_watchers();
   }
   deck_.scope.complain_about_unused(*deck_.root, complaints_);

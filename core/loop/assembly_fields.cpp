@@ -45,11 +45,13 @@ void Assembly::choose_rotations() {
 }
 
 void Assembly::add_families() {
-  for (const auto& plugin : scene_.plugins)
-    if (const auto* law = as_kind<BondLaw>(*plugin)) {
-      scene_.families.push_back(law->family());
-      scene_.domain->add_family(law->family());
-    }
+  for (const auto& plugin : scene_.plugins) {
+    const auto* bonds = as_kind<BondLaw>(*plugin);
+    const auto* contacts = as_kind<ContactLaw>(*plugin);
+    if (bonds) scene_.domain->add_family(bonds->family());
+    if (contacts) scene_.domain->add_contacts(contacts->family());
+    if (bonds || contacts) scene_.families.push_back(plugin->families().front());
+  }
 }
 
 // The loops find the members of an element's line side by side in this order, whichever plugin asks first.
@@ -237,15 +239,21 @@ bool Assembly::reads_sums(const Derived& derived) const {
 
 // Which laws count in the sums that derived fields are found from: one choice for a scene.
 void Assembly::note_sums() {
+  const auto laws_that = [&](const auto& count) {
+    std::set<const PairLaw*> all;
+    for (const auto& plugin : scene_.plugins) {
+      const PairLaw* law = as_kind<BondLaw>(std::as_const(*plugin));
+      if (!law) law = as_kind<ContactLaw>(std::as_const(*plugin));
+      if (law && count(*law)) all.insert(law);
+    }
+    return all;
+  };
   const Derived* first = nullptr;
   for (const Derived* derived : scene_.derived) {
     if (!reads_sums(*derived)) continue;
     const auto& readers = scene_.readers_of(*derived);
     scene_.section_readers.insert(readers.begin(), readers.end());
-    std::set<const PairLaw*> counting;
-    for (const auto& plugin : scene_.plugins)
-      if (const auto* law = as_kind<BondLaw>(std::as_const(*plugin)); law && derived->sums_over(*law))
-        counting.insert(law);
+    const auto counting = laws_that([&](const PairLaw& law) { return derived->sums_over(law); });
     if (first && counting != scene_.summing)
       complaints_.error(derived->at(),
                         fmt::format("<{}> sums over other families than <{}>: one choice holds for a scene",

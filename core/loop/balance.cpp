@@ -99,7 +99,8 @@ Real Balance::beyond_work() const {
 void Balance::release(const Stage& next) {
   std::erase_if(state_.laws, [&](const auto& acting) {
     const auto& [law, table] = acting;
-    if (std::find(next.laws.begin(), next.laws.end(), law) != next.laws.end()) return false;
+    const auto acting_next = next.plugins();
+    if (std::find(acting_next.begin(), acting_next.end(), law) != acting_next.end()) return false;
     const Real held = blaming(*law, state_.moment,
                               [&, law = law, table = table] { return law->stored_energy(state_.domain(), *table); });
     state_.released_by(*table) += held + blaming(*law, state_.moment, [&, law = law, table = table] {

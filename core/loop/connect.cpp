@@ -31,19 +31,9 @@ struct Candidates {
   Index row(Index k) const { return row_of[static_cast<std::size_t>(k)]; }
 };
 
-std::vector<Pair> near_ones(const BondLaw& law, const Candidates& among, const Pause& pause) {
-  try {
-    return find_pairs(among.position, among.radius, *law.gap, 0, pause);
-  } catch (const std::invalid_argument& too_many) {
-    refuse(law.gap.in_deck() ? law.gap.at() : law.at(), fmt::format("family '{}': {}", *law.name, too_many.what()));
-  } catch (const std::bad_alloc&) {
-    refuse(
-        law.gap.in_deck() ? law.gap.at() : law.at(),
-        fmt::format("family '{}': there is not enough memory for the pairs that stand within this 'gap'", *law.name));
-  }
-}
-
-Candidates candidates(const BondLaw& law, const Domain& domain, const Pause& pause) {
+/// The elements of the two sets between which a law acts, and the pairs that `find` finds among them and that join the two.
+template <class Find>
+Candidates candidates(const PairLaw& law, const Domain& domain, const Find& find) {
   const std::vector<char> one = membership(domain, (*law.between)[0]);
   const std::vector<char> other = membership(domain, (*law.between)[1]);
   Candidates among;
@@ -55,13 +45,28 @@ Candidates candidates(const BondLaw& law, const Domain& domain, const Pause& pau
     among.radius.push_back(r[row]);
     among.row_of.push_back(row);
   }
-  for (const Pair& near : near_ones(law, among, pause)) {
-    const Index i = among.row(near.i), j = among.row(near.j);
-    const auto at_i = static_cast<std::size_t>(i), at_j = static_cast<std::size_t>(j);
-    const bool joins = (one[at_i] && other[at_j]) || (one[at_j] && other[at_i]);
-    if (joins && blaming(law, "accepts", [&] { return law.accepts(domain, i, j); })) among.pairs.push_back(near);
+  for (const Pair& near : find(among)) {
+    const auto i = static_cast<std::size_t>(among.row(near.i)), j = static_cast<std::size_t>(among.row(near.j));
+    if ((one[i] && other[j]) || (one[j] && other[i])) among.pairs.push_back(near);
   }
   return among;
+}
+
+Candidates near_ones(const BondLaw& law, const Domain& domain, const Pause& pause) {
+  const Location& at = law.gap.in_deck() ? law.gap.at() : law.at();
+  try {
+    Candidates among = candidates(
+        law, domain, [&](const Candidates& all) { return find_pairs(all.position, all.radius, *law.gap, 0, pause); });
+    std::erase_if(among.pairs, [&](const Pair& near) {
+      return !blaming(law, "accepts", [&] { return law.accepts(domain, among.row(near.i), among.row(near.j)); });
+    });
+    return among;
+  } catch (const std::invalid_argument& too_many) {
+    refuse(at, fmt::format("family '{}': {}", *law.name, too_many.what()));
+  } catch (const std::bad_alloc&) {
+    refuse(at, fmt::format("family '{}': there is not enough memory for the pairs that stand within this 'gap'",
+                           *law.name));
+  }
 }
 
 /// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it
@@ -86,17 +91,26 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
 }  // namespace
 
 bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) {
-  return !candidates(law, domain, pause).pairs.empty();
+  return !near_ones(law, domain, pause).pairs.empty();
 }
 
 std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause,
                                                    const Log& log) {
-  Candidates among = candidates(law, domain, pause);
+  Candidates among = near_ones(law, domain, pause);
   if (among.pairs.empty())
     refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = "
                                  "{} of the sum of their radii between them; a larger 'gap' or another set may help",
                                  *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
   mind_far_ones(law, among, pause, log);
+  std::vector<std::pair<Index, Index>> pairs;
+  pairs.reserve(among.pairs.size());
+  for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));
+  return pairs;
+}
+
+std::vector<std::pair<Index, Index>> pairs_in_reach(const ContactLaw& law, const Domain& domain, Real skin) {
+  const Candidates among =
+      candidates(law, domain, [&](const Candidates& all) { return find_pairs(all.position, all.radius, 0, skin); });
   std::vector<std::pair<Index, Index>> pairs;
   pairs.reserve(among.pairs.size());
   for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));

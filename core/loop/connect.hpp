@@ -18,4 +18,7 @@ bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause);
 std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause,
                                                    const Log& log);
 
+/// Pairs of elements between the law's two sets whose surfaces are within `skin` [m], sorted.
+std::vector<std::pair<Index, Index>> pairs_in_reach(const ContactLaw& law, const Domain& domain, Real skin);
+
 }  // namespace beadwork

@@ -7,14 +7,14 @@ namespace beadwork {
 void Forces::evaluate(bool settle, bool offering) {
   Domain& domain = state_.domain();
   if (state_.laws.empty()) domain.clear_loads();
-  act({true, settle, offering, state_.mover().in_single(), false});
+  act({true, settle, offering, state_.mover().in_single(), false, settle ? state_.moment.time_step : 0});
   domain.gather();
   for (Load* load : state_.stage().loads) blaming(*load, state_.moment, [&] { load->push(domain, state_.moment); });
 }
 
 void Forces::offer() {
   const LoadsAside aside(state_.domain());
-  act({true, false, true, state_.mover().in_single(), false});
+  act({true, false, true, state_.mover().in_single()});
 }
 
 void Forces::act(Evaluation how) {

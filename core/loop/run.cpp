@@ -18,6 +18,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       fresh_(state_, offered_, forces_, *this),
       balance_(state_, fresh_, options_.log),
       breaking_(state_, offered_, fresh_, balance_),
+      contacts_(state_),
       record_(state_, catalogue, folder, options_, fresh_, balance_),
       seen_(state_, balance_, record_),
       looks_(state_, fresh_, offered_, seen_, options_.log) {
@@ -86,6 +87,7 @@ void Run::begin_stage() {
   fresh_.begin_stage();
   if (now.step == 0 && now.stage == 0) fresh_.derive_all();  // where all begins
   connect(state_, options_.log);
+  contacts_.begin_stage();
   prepare_stage(false);
   balance_.begin_stage();
   state_.phase = RunState::Phase::between_steps;
@@ -94,6 +96,7 @@ void Run::begin_stage() {
 void Run::resume_stage() {
   let_laws_act(state_);
   fresh_.begin_stage();
+  contacts_.resume_stage();
   prepare_stage(true);
   state_.phase = RunState::Phase::between_steps;
 }
@@ -148,6 +151,7 @@ void Run::step() {
 void Run::advance() {
   state_.phase = RunState::Phase::within_step;
   fresh_.begin_step();
+  contacts_.follow();
   Mover& mover = state_.mover();
   blaming(mover, state_.moment, [&] { mover.step(*this); });
   state_.bond_updates += breaking_.live();

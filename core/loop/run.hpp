@@ -3,6 +3,7 @@
 // the scene to the record.
 
 #include "core/loop/breaking.hpp"
+#include "core/loop/contacts.hpp"
 #include "core/loop/looks.hpp"
 
 namespace beadwork {
@@ -64,6 +65,7 @@ class Run final : private Workings {
   Fresh fresh_;
   Balance balance_;
   Breaking breaking_;
+  Contacts contacts_;
   Record record_;
   Seen seen_;
   Looks looks_;

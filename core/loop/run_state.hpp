@@ -42,6 +42,7 @@ class RunState {
       wall_seconds;             ///< the loop's are those of steps and looks, without filling and checkpoints
   Kept initial_energy;          ///< there without any work [J]
   Kept looks_owed;              ///< watchers of the stage that have not had their turn at this step, last in the order
+  Kept breaks_searched;         ///< breaks that were there when pairs that may touch were last looked for
   std::vector<ActingLaw> laws;  ///< of the present stage
 
   Domain& domain() const { return *scene.domain; }

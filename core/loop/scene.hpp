@@ -22,6 +22,7 @@ struct Stage {
   std::string name;
   Location at;
   std::vector<BondLaw*> laws;
+  std::vector<ContactLaw*> contacts;
   std::vector<Load*> loads;
   std::vector<Mover*> movers;  ///< exactly one, once checked
   std::vector<Failure*> failures;

@@ -61,6 +61,11 @@ void let_laws_act(RunState& state) {
     if (law->acts_when_broken()) table->keep_broken_live();
     state.laws.emplace_back(law, table);
   }
+  for (ContactLaw* law : state.stage().contacts) {
+    BondTable* table = domain.find_family(law->family());
+    table->keep_broken_live();
+    state.laws.emplace_back(law, table);
+  }
   domain.cut_families();
   domain.clear_halo();  // families that act no longer leave nothing behind to be gathered
   state.scene.bind();

@@ -95,7 +95,8 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   json["seed"] = scene.seed;
   json["elements"] = domain.size();
   json["bonds"] = Json::object();
-  for (const auto& family : domain.families()) json["bonds"][family->name()] = family->size();
+  for (const BondTable* family : domain.families())
+    json[family->is_of_contacts() ? "contacts" : "bonds"][family->name()] = family->size();
   json["steps"] = moment.step;
   json["time"] = moment.time;
   json["time_step"] = moment.time_step;

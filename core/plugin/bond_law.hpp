@@ -9,12 +9,6 @@ class BondLaw : public PairLaw {
  public:
   static constexpr Kind its_kind = Kind::bond;
   BondLaw() : PairLaw(its_kind) {}
-  Param<std::vector<std::string>> between{
-      this,
-      {.name = "between",
-       .doc = "The two sets that are bonded; one and the same for bonds inside a set",
-       .role = Role::set,
-       .count = 2}};
   Param<Real> gap{
       this,
       {.name = "gap",

@@ -35,13 +35,15 @@ class PairLawOf : public Base {
   Sums<Sym3> virial_sum{this, field::virial_sum};
   Sums<Real> virial_trace_sum{this, field::virial_trace_sum};
 
-  PairLawOf() {
-    want((Laws::turns || ...), (beadwork::moves<Laws>() || ...), ((Laws::turns && beadwork::moves<Laws>()) || ...));
-  }
+  PairLawOf() { want((Laws::turns || ...), (sees_rates<Laws>() || ...), ((Laws::turns && sees_rates<Laws>()) || ...)); }
   /// Of several laws that the deck chooses among, one is meant. A plugin that chooses more calls this too.
-  void choose() override { want(turns(), moves(), turns() && moves()); }
+  void choose() override {
+    const bool rates = std::visit([]<class Law>(const Law&) { return sees_rates<Law>(); }, law());
+    want(turns(), rates, turns() && rates);
+  }
 
   void act(Domain& domain, BondTable& table, const Evaluation& how) final {
+    time_step_ = how.time_step;
     const auto flagged = std::visit(
         [&](const auto& value) {
           if (how.settle)
@@ -138,14 +140,16 @@ class PairLawOf : public Base {
 
  protected:
   virtual AnyLaw law() const = 0;
+  /// Of the step whose end is evaluated; 0 where none was made [s].
+  Real time_step() const { return time_step_; }
   /// Looks through the flagged chunks for bonds that changed for good, sets their state, and says so.
   virtual void note_changes(BondTable&, std::span<const Index>, std::vector<BondEvent>&) {}
 
  private:
-  void want(bool turns, bool moves, bool spins) {
+  void want(bool turns, bool rates, bool spins) {
     orientation.want(turns);
     torque.want(turns);
-    velocity.want(moves);
+    velocity.want(rates);
     spin.want(spins);
   }
   ElementLines lines(Index elements = 0, bool with_sums = false) const {
@@ -181,10 +185,14 @@ class PairLawOf : public Base {
     return value.stored(One{row, &ignored}, e.template ends<Law>(table.first()[row], table.second()[row]));
   }
   std::vector<BondEvent> events_;
+  Real time_step_ = 0;
 };
 
 /// A bond law; in a plugin: class Rope final : public BondLawOf<RopeLaw>.
 template <class... Laws>
 class BondLawOf : public PairLawOf<BondLaw, Laws...> {};
+/// The same for contacts.
+template <class... Laws>
+class ContactLawOf : public PairLawOf<ContactLaw, Laws...> {};
 
 }  // namespace beadwork

@@ -37,7 +37,7 @@ class Failure : public Plugin {
     each_family(domain, [&](const BondTable& table) {
       each_shared(static_cast<Index>(table.chunks().size()), [&](Index c) {
         const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
-        for (Index b = chunk.begin; b < chunk.live_end; ++b) utilisation[b] = f(b);
+        for (Index b = chunk.begin; b < chunk.live_end; ++b) utilisation[b] = used(f(b));
       });
     });
   }
@@ -45,8 +45,12 @@ class Failure : public Plugin {
   template <class F>
   void judge_elements(const Domain& domain, const F& f) const {
     each_shared(
-        domain.size(), [&](Index i) { utilisation[i] = f(i); }, 1024);
+        domain.size(), [&](Index i) { utilisation[i] = used(f(i)); }, 1024);
   }
+
+ private:
+  /// What is pushed where only pulling breaks is not used at all. What is no number stays what it is, to be noticed.
+  static Real used(Real found) { return found < 0 ? 0 : found; }
 };
 
 }  // namespace beadwork

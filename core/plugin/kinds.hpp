@@ -3,6 +3,7 @@
 // class, a row of the table in plugin.hpp, and where it runs in stages a row of the one in core/loop/assembly.cpp.
 
 #include "core/plugin/bond_law.hpp"
+#include "core/plugin/contact_law.hpp"
 #include "core/plugin/derived.hpp"
 #include "core/plugin/failure.hpp"
 #include "core/plugin/filler.hpp"

@@ -1,6 +1,9 @@
 #pragma once
 // What acts between two elements, however the pair came about.
 
+#include <limits>
+#include <span>
+
 #include "core/mechanics/stiffness.hpp"
 #include "core/plugin/plugin.hpp"
 
@@ -13,6 +16,7 @@ struct Evaluation {
   bool sections = false;  ///< somebody reads what the law offers of each bond (axial force, moments, ...)
   bool single = false;    ///< forces in single precision, of laws that can
   bool sums = false;      ///< somebody reads sums that the law offers (the virial), and this family counts in them
+  Real time_step = 0;     ///< of the step whose end this is; 0 where none was made [s]
 };
 
 /// A bond that changed for good while settling.
@@ -24,7 +28,15 @@ struct BondEvent {
 
 class PairLaw : public Plugin {
  public:
-  Param<std::string> name{this, {.name = "name", .doc = "Name of the family of bonds", .role = Role::makes_family}};
+  Param<std::string> name{
+      this, {.name = "name", .doc = "Name of the family of bonds, or of the contacts", .role = Role::makes_family}};
+
+  Param<std::vector<std::string>> between{
+      this,
+      {.name = "between",
+       .doc = "The two sets between whose elements it acts; one and the same for pairs inside a set",
+       .role = Role::set,
+       .count = 2}};
 
   const std::string& family() const { return *name; }
   std::vector<std::string> families() const final { return {*name}; }
@@ -60,6 +72,8 @@ class PairLaw : public Plugin {
   virtual bool can_be_single() const { return false; }
   /// True if broken bonds still act (a cohesive contact still resists closing): they stay among the live rows.
   virtual bool acts_when_broken() const { return false; }
+  /// Longest step by which what it does is still resolved [s], beside the limit that its stiffness sets.
+  virtual Real longest_step(const Domain&) const { return std::numeric_limits<Real>::infinity(); }
   /// True if its forces are part of the stress of an element, where no deck says which families are.
   virtual bool is_in_stress() const { return true; }
 

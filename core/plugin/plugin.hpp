@@ -11,7 +11,7 @@
 
 namespace beadwork {
 
-enum class Kind { fill, bond, load, move, fail, derive, watch };
+enum class Kind { fill, bond, contact, load, move, fail, derive, watch };
 
 struct KindRow {
   Kind kind;
@@ -26,6 +26,8 @@ inline constexpr KindRow all_kinds[] = {
     {Kind::bond, "bond", true,
      "Bonds elements, one family for each law. Made at the start of the stage in which the law first stands; acts at "
      "every evaluation of the forces."},
+    {Kind::contact, "contact", true,
+     "Acts between elements that touch and are not bonded. Pairs come and go with the motion."},
     {Kind::load, "load", true, "Moves or holds sets of elements, pushes them, or gives them a velocity to start with."},
     {Kind::move, "move", true, "Advances the scene by one step. A stage has exactly one."},
     {Kind::fail, "fail", true,

@@ -19,7 +19,7 @@ ALLOWED = {
     "workbench": {"base", "deck", "domain", "mechanics", "plugin", "loop", "io", "packing"},
     "plugins/fill": PLUGIN_BASE | {"packing", "io"},
     "plugins/watch": PLUGIN_BASE | {"io"},
-    **{f"plugins/{kind}": PLUGIN_BASE for kind in ("bond", "load", "fail", "derive")},
+    **{f"plugins/{kind}": PLUGIN_BASE for kind in ("bond", "contact", "load", "fail", "derive")},
     "plugins/move": PLUGIN_BASE | {"dynamics"},
 }
 # Each of these libraries is known to one part only.

@@ -6,6 +6,7 @@
 
 #include "core/deck/read.hpp"
 #include "core/loop/breaking.hpp"
+#include "core/loop/contacts.hpp"
 #include "core/loop/filling.hpp"
 #include "core/loop/stage_start.hpp"
 #include "tests/support/scratch.hpp"
@@ -25,7 +26,8 @@ class Parts : private Workings {
         forces(state, offered),
         fresh(state, offered, forces, *this),
         balance(state, fresh, options.log),
-        breaking(state, offered, fresh, balance) {
+        breaking(state, offered, fresh, balance),
+        contacts(state) {
     scene->bind();
   }
 
@@ -43,6 +45,7 @@ class Parts : private Workings {
     let_laws_act(state);
     fresh.begin_stage();
     connect(state, options.log);
+    contacts.begin_stage();
     begin_constraints(state);
     breaking.begin_stage();
     state.mover().prepare(*this, false);
@@ -50,6 +53,7 @@ class Parts : private Workings {
   }
   void step() {
     fresh.begin_step();
+    contacts.follow();
     state.mover().step(*this);
   }
 
@@ -62,6 +66,7 @@ class Parts : private Workings {
   Fresh fresh;
   Balance balance;
   Breaking breaking;
+  Contacts contacts;
 
  private:
   RunOptions listened_to() {

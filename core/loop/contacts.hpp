@@ -1,0 +1,31 @@
+#pragma once
+// Which elements may touch: looked for when a stage begins, when something has moved by half a skin, and when a bond has
+// broken, always between two steps.
+
+#include "core/loop/run_state.hpp"
+
+namespace beadwork {
+
+class Contacts {
+ public:
+  explicit Contacts(RunState& state) : state_(state) {}
+
+  /// The pairs of the contact laws of the stage, anew; after a restart those that were kept.
+  void begin_stage();
+  void resume_stage();
+  /// Before a step: pairs are found anew where they may be too old for it. Throws PhysicsFailure if an element moves
+  /// by more than half a skin in a step.
+  void follow();
+
+ private:
+  void search();
+  bool are_old() const;
+  std::vector<std::pair<Index, Index>> held_pairs(bool broken) const;
+  void meet_and_part(ContactLaw& law, BondTable& table, const std::vector<std::pair<Index, Index>>& bonded);
+  Real skin(const ContactLaw& law) const;
+
+  RunState& state_;
+  Real narrowest_ = 0;  ///< half of the narrowest skin of the stage [m]
+};
+
+}  // namespace beadwork

@@ -1,0 +1,36 @@
+#include "plugins/contact/colliding.hpp"
+
+namespace beadwork {
+
+/// f = k delta, with k of the deck or of the modulus.   docs/theory/contact.md
+class Penalty final : public Colliding<LinearContact> {
+ public:
+  static constexpr const char* about =
+      "Contacts with a normal force in proportion to the overlap, friction and restitution";
+  Param<Real> normal_stiffness{this,
+                               {.name = "stiffness",
+                                .unit = "N/m",
+                                .range = positive,
+                                .doc = "Normal stiffness k of every contact",
+                                .one_of = "hardness"}};
+  Param<Real> young{this,
+                    {.name = "young",
+                     .unit = "Pa",
+                     .range = positive,
+                     .doc = "Modulus E of the elements: k = E pi R/2 with the harmonic mean R of their radii, as a rod "
+                            "between the centres has",
+                     .one_of = "hardness"}};
+  Param<Real> tangential_ratio_{this,
+                                {.name = "tangential-ratio",
+                                 .range = positive,
+                                 .doc = "Tangential over normal stiffness",
+                                 .fallback = "0.2857142857142857"}};
+
+ protected:
+  Real hardness(Real r1, Real r2) const override {
+    return normal_stiffness.given() ? *normal_stiffness : *young * std::numbers::pi * r1 * r2 / (r1 + r2);
+  }
+  Real tangential_ratio() const override { return *tangential_ratio_; }
+};
+
+}  // namespace beadwork

@@ -1,0 +1,50 @@
+#include "core/base/parallel.hpp"
+#include "core/base/sums.hpp"
+#include "core/domain/vocabulary.hpp"
+#include "core/plugin/kinds.hpp"
+
+namespace beadwork {
+
+/// Weight: the mass of each element times an acceleration.
+class Gravity final : public Load {
+ public:
+  static constexpr const char* about = "Weight of all elements, or of a set";
+  Param<Vec3> acceleration{
+      this,
+      {.name = "acceleration", .unit = "m/s2", .doc = "Acceleration of free fall", .fallback = "0 0 -9.80665 m/s^2"}};
+  Param<std::string> set{
+      this,
+      {.name = "set", .doc = "Set that has weight; all elements where absent", .optional = true, .role = Role::set}};
+  Adds<Vec3> force{this, field::force};
+  Reads<Vec3> position{this, field::position};
+  Reads<Real> mass{this, field::mass};
+  Keeps<Real> work{this, {"work", On::scene, "J", "Work of the weight so far"}};
+  Keeps<Real> height{this, {"height", On::scene, "J", "Sum of m g.x at the last step"}};
+
+  void start(Domain& domain) override { height[0] = lift(domain); }
+  void push(Domain& domain, const Moment&) override {
+    each(domain, [&](Index row) { force.add(row, mass[row] * *acceleration); });
+  }
+  void account(const Domain& domain, const Moment&) override {
+    const Real now = lift(domain);
+    work[0] += now - height[0];
+    height[0] = now;
+  }
+  void energy(EnergySink& sink) const override { sink.work("gravity", work[0]); }
+
+ private:
+  template <class F>
+  void each(const Domain& domain, const F& f) const {
+    if (!set.given()) return each_shared(domain.size(), f, 4096);
+    for (const Index row : domain.set(*set)) f(row);
+  }
+  Real lift(const Domain& domain) const {
+    const auto term = [&](Index row) { return mass[row] * acceleration->dot(Vec3(position[row])); };
+    if (!set.given()) return fixed_sum(domain.size(), term);
+    const Set& members = domain.set(*set);
+    return fixed_sum(static_cast<Index>(members.size()),
+                     [&](Index k) { return term(members[static_cast<std::size_t>(k)]); });
+  }
+};
+
+}  // namespace beadwork
