@@ -23,7 +23,7 @@ std::string text(const Json& json, const char* key) {
 }
 
 // Whatever a parameter, a curve or a run is called: the table is UTF-8.
-std::string field(const std::string& raw) {
+std::string quoted_field(const std::string& raw) {
   const std::string text = safe_text(raw);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -89,18 +89,18 @@ void note_row(BatchRun& run) {
 std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs) {
   const std::vector<std::string> columns = columns_of(runs);
   std::string table = "run";
-  for (const Variation& variation : variations) table += "," + field(variation.name);
+  for (const Variation& variation : variations) table += "," + quoted_field(variation.name);
   table += ",status,elements,steps,time [s],breaks,wall_seconds [s],exit_reason";
-  for (const std::string& column : columns) table += "," + field(column);
+  for (const std::string& column : columns) table += "," + quoted_field(column);
   table += "\n";
   for (const BatchRun& run : runs) {
-    table += field(run.name);
-    for (const std::string& value : run.values) table += "," + field(value);
-    for (const std::string& cell : run.row) table += "," + field(cell);
+    table += quoted_field(run.name);
+    for (const std::string& value : run.values) table += "," + quoted_field(value);
+    for (const std::string& cell : run.row) table += "," + quoted_field(cell);
     for (const std::string& column : columns) {
       const auto found = std::find_if(run.results.begin(), run.results.end(),
                                       [&](const auto& result) { return result.first == column; });
-      table += "," + (found == run.results.end() ? "" : field(found->second));
+      table += "," + (found == run.results.end() ? "" : quoted_field(found->second));
     }
     table += "\n";
   }

@@ -21,6 +21,13 @@ Manual manual_of(const Catalogue& catalogue) {
   return manual;
 }
 
+std::vector<const FieldUse*> Described::touched() const {
+  std::vector<const FieldUse*> all;
+  for (const FieldUse* use : plugin->uses())
+    if (use->wanted()) all.push_back(use);
+  return all;
+}
+
 Manual pick(Manual manual, const std::string& wanted) {
   std::vector<std::string> known;
   for (const Described& each : manual) {

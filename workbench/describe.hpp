@@ -15,6 +15,8 @@ struct Described {
   std::unique_ptr<Plugin> plugin;  ///< as declared: no deck has configured it
 
   std::string path() const { return std::string(kind_name(kind)) + "/" + tag; }
+  /// Fields that it may touch, whatever a deck chooses.
+  std::vector<const FieldUse*> touched() const;
 };
 using Manual = std::vector<Described>;
 
@@ -31,7 +33,6 @@ std::string as_json(const Manual& manual);
 /// XSD 1.0 for decks and for the files that they include.
 std::string as_xsd(const Manual& manual);
 
-/// When the plugins of a section run, in a sentence.
 /// What a plugin does with a field, in a word: "reads", "adds", "offers", "fills", "keeps".
 const char* use_word(Kind kind, Verb verb);
 /// "quantity in Pa", "one of each, mean": the type of a parameter with its unit.

@@ -39,7 +39,7 @@ std::string as_json(const Manual& manual) {
     plugin["parameters"] = Json::array();
     for (const ParamBase* param : each.plugin->params()) plugin["parameters"].push_back(json_of(*param));
     plugin["fields"] = Json::array();
-    for (const FieldUse* use : each.plugin->uses()) plugin["fields"].push_back(json_of(each.kind, *use));
+    for (const FieldUse* use : each.touched()) plugin["fields"].push_back(json_of(each.kind, *use));
     json.push_back(std::move(plugin));
   }
   return json_text(json, 2) + "\n";

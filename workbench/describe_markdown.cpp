@@ -42,9 +42,9 @@ std::string chapter(const Described& each) {
     text += "\n| attribute | type | range | default | meaning |\n|---|---|---|---|---|\n";
     for (const ParamBase* param : each.plugin->params()) text += row_of(*each.plugin, *param);
   }
-  if (!each.plugin->uses().empty()) {
+  if (!each.touched().empty()) {
     text += "\n| | field | on | unit | meaning |\n|---|---|---|---|---|\n";
-    for (const FieldUse* use : each.plugin->uses()) text += row_of(each.kind, *use);
+    for (const FieldUse* use : each.touched()) text += row_of(each.kind, *use);
   }
   return text;
 }

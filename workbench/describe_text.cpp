@@ -66,8 +66,8 @@ std::string as_text(const Manual& manual, std::size_t width) {
         fmt::format("<{}>  in section <{}>\n", each.tag, kind_name(each.kind)) + wrapped(each.about + ".", 2, width);
     if (!each.plugin->params().empty()) text += "\nAttributes\n";
     for (const ParamBase* param : each.plugin->params()) text += entry_of(*each.plugin, *param, width);
-    if (!each.plugin->uses().empty()) text += "\nFields\n";
-    for (const FieldUse* use : each.plugin->uses()) text += entry_of(each.kind, *use, width);
+    if (!each.touched().empty()) text += "\nFields\n";
+    for (const FieldUse* use : each.touched()) text += entry_of(each.kind, *use, width);
   }
   return text;
 }

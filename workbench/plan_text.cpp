@@ -58,6 +58,18 @@ std::string filling(const Scene& scene) {
   return text;
 }
 
+// Fields that somebody of the stage reads.
+std::vector<const Derived*> derived_in(const Scene& scene, const Stage& stage) {
+  const auto there = stage.plugins();
+  std::vector<const Derived*> all;
+  for (const Derived* derived : scene.derived) {
+    const auto& readers = scene.readers_of(*derived);
+    if (std::any_of(there.begin(), there.end(), [&](const Plugin* plugin) { return readers.contains(plugin); }))
+      all.push_back(derived);
+  }
+  return all;
+}
+
 std::string phases(const Scene& scene, std::size_t number) {
   const Stage& stage = scene.stages[number];
   std::vector<const BondLaw*> fresh;
@@ -68,9 +80,10 @@ std::string phases(const Scene& scene, std::size_t number) {
   line(text, "each step", "load", labels(stage.loads));
   line(text, "", "move", labels(stage.movers));
   line(text, "", "bond", labels(stage.laws));
+  line(text, "", "contact", labels(stage.contacts));
   line(text, "", "fail", with_cadences(stage.failures));
-  line(text, "now and then", "derive", stage.watchers.empty() ? "" : labels(scene.derived));
-  line(text, "", "watch", with_cadences(stage.watchers));
+  line(text, "when it is read", "derive", labels(derived_in(scene, stage)));
+  line(text, "now and then", "watch", with_cadences(stage.watchers));
   return text;
 }
 
@@ -156,7 +169,9 @@ std::string not_needed(const Scene& scene) {
   bool fails = false;
   for (const Stage& stage : scene.stages) fails |= !stage.failures.empty();
   say(!scene.domain->elements().find("orientation"), "rotations: nobody reads orientations or adds torques");
-  say(true, "search for neighbours: no law acts between elements that are not bonded");
+  say(std::none_of(scene.stages.begin(), scene.stages.end(),
+                   [](const Stage& stage) { return !stage.contacts.empty(); }),
+      "search for neighbours: no law acts between elements that are not bonded");
   say(scene.section_readers.empty(), "forces and moments of single bonds: nobody reads them");
   say(scene.derived.empty(), "derived fields: nobody reads one");
   say(!fails, "judging bonds: no criterion of failure");

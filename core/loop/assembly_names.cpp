@@ -102,7 +102,20 @@ void Assembly::check_files() {
     }
 }
 
+// A field is derived in one way.
+void Assembly::check_derived() {
+  std::map<std::string, Location> named;
+  for (const auto& plugin : scene_.plugins) {
+    if (plugin->kind() != Kind::derive) continue;
+    const auto [there, fresh] = named.try_emplace(plugin->tag(), plugin->at());
+    if (!fresh)
+      complaints_.error(plugin->at(),
+                        fmt::format("<{}> stands in <derive> already, at {}", plugin->tag(), there->second.where()));
+  }
+}
+
 void Assembly::check_names() {
+  check_derived();
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));
   check_order_of_regions();

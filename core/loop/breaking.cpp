@@ -77,6 +77,7 @@ void Breaking::fell_element(Failure& failure, Index row) {
     const Links& links = links_.try_emplace(&table, table, state_.domain().size()).first->second;
     for (const Index bond : links.of(row)) fell_bond(failure, table, bond, id);
   }
+  state_.domain().elements().column(failure.utilisation.field().name).view<Real>()[row] = 0;
 }
 
 // Once, whoever fells it first: criteria in the order of the deck.

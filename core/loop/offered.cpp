@@ -22,6 +22,7 @@ Offered::Offered(const Scene& scene) : scene_(scene) {
 
 void Offered::begin_stage() {
   begin_step();
+  held_.clear();
   for (const auto& [table, columns] : columns_)
     for (Column* column : columns) clear(*column, 0, table->size());
 }
@@ -44,13 +45,32 @@ Verdict Offered::judge(Failure& failure, Domain& domain) {
   }
   judged_.insert(&failure);
   failure.judge(domain);
-  Verdict verdict = read_verdict(failure, domain);
+  Verdict verdict = read_verdict(failure, domain, held_for(failure, domain));
   for (const auto& [column, aside] : of_others) {
     const auto told = column->view<Real>();
     for (std::size_t row = 0; row < aside.size(); ++row)
       told[static_cast<Index>(row)] = std::max(told[static_cast<Index>(row)], aside[row]);
   }
   return verdict;
+}
+
+void Offered::note_broken() {
+  told_ &= scene_.summing.empty();
+  held_.clear();
+}
+
+// Found anew when a stage has begun and when something has broken.
+const std::vector<char>& Offered::held_for(const Failure& failure, const Domain& domain) {
+  std::vector<char>& held = held_[&failure];
+  if (!failure.judges_elements() || !held.empty()) return held;
+  held.assign(static_cast<std::size_t>(domain.size()), 0);
+  for (const std::string& family : failure.families()) {
+    const BondTable& table = *domain.find_family(family);
+    for (const Chunk& chunk : table.chunks())
+      for (Index row = chunk.begin; row < chunk.live_end; ++row)
+        for (const Index end : {table.first()[row], table.second()[row]}) held[static_cast<std::size_t>(end)] = 1;
+  }
+  return held;
 }
 
 void Offered::clear(const BondTable& table, Index row) const {

@@ -32,14 +32,17 @@ class Offered {
   /// A bond has broken.
   void clear(const BondTable& table, Index row) const;
   /// Bonds have broken: sums that are read have to be found without them.
-  void note_broken() { told_ &= scene_.summing.empty(); }
+  void note_broken();
 
  private:
   void clear(Column& column, Index begin, Index end) const;
+  const std::vector<char>& held_for(const Failure& failure, const Domain& domain);
 
   const Scene& scene_;
   std::map<const BondTable*, std::vector<Column*>> columns_;
   bool told_ = false;
+  /// By criterion that judges elements: whether a bond that may break holds the element.
+  std::map<const Failure*, std::vector<char>> held_;
   std::set<const Failure*> judged_;
   std::set<const Column*> with_utilisation_;  ///< of which a criterion has told at this step
 };

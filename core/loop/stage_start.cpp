@@ -25,6 +25,15 @@ bool begins_here(const RunState& state, const Plugin& plugin) {
   return state.scene.first_stage(plugin) == state.stage_number();
 }
 
+// Some of the bonds that it judges have just been made.
+bool gains_a_family(const RunState& state, const Failure& failure) {
+  const auto families = failure.families();
+  const auto& laws = state.stage().laws;
+  return std::any_of(laws.begin(), laws.end(), [&](const BondLaw* law) {
+    return begins_here(state, *law) && std::find(families.begin(), families.end(), law->family()) != families.end();
+  });
+}
+
 void connect_family(RunState& state, BondLaw& law, BondTable& table, const Log& log) {
   blaming(law, state.moment, [&] { law.connect(state.domain(), table); });
   const std::string remark = blaming(law, "remark", [&] { return law.remark(); });
@@ -76,7 +85,7 @@ void connect(RunState& state, const Log& log) {
   for (BondLaw* law : state.stage().laws)
     if (begins_here(state, *law)) connect_family(state, *law, *domain.find_family(law->family()), log);
   for (Failure* failure : state.stage().failures)
-    if (begins_here(state, *failure))
+    if (begins_here(state, *failure) || gains_a_family(state, *failure))
       blaming(*failure, state.moment, [&] { failure->begin(domain, state.scene.seed); });
   for (Load* load : state.stage().loads) blaming(*load, state.moment, [&] { load->clear(domain); });
   for (Load* load : state.stage().loads) blaming(*load, state.moment, [&] { load->start(domain); });

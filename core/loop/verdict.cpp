@@ -47,11 +47,14 @@ void read(const Domain& domain, BondTable* table, View<const Real> utilisation, 
 
 }  // namespace
 
-Verdict read_verdict(const Failure& failure, Domain& domain) {
+Verdict read_verdict(const Failure& failure, Domain& domain, const std::vector<char>& held) {
   const std::string& name = failure.utilisation.field().name;
   Verdict all;
   std::vector<Stretch> stretches;
   if (failure.judges_elements()) {
+    const auto utilisation = domain.elements().column(name).view<Real>();
+    for (Index row = 0; row < domain.size(); ++row)
+      if (!held[static_cast<std::size_t>(row)]) utilisation[row] = 0;
     for (Index row = 0; row < domain.size(); row += 1024)
       stretches.push_back({row, std::min(row + 1024, domain.size())});
     read(domain, nullptr, domain.elements().column(name).view<Real>(), stretches, all);

@@ -19,7 +19,9 @@ struct Verdict {
   Judged highest;              ///< row -1 where nothing is under load
 };
 
-/// Throws std::runtime_error, naming the bond or the element, where a utilisation is no number.
-Verdict read_verdict(const Failure& failure, Domain& domain);
+/// Of elements only those count that a bond which may break holds: the others have nothing to lose, and their utilisation
+/// is set to 0. `held` tells of each. Throws std::runtime_error, naming the bond or the element, where a utilisation is no
+/// number.
+Verdict read_verdict(const Failure& failure, Domain& domain, const std::vector<char>& held);
 
 }  // namespace beadwork

@@ -8,7 +8,7 @@ namespace beadwork {
 // The overlap x grows from 0 at speed 1. A unit of time is that of the contact, as its stiffness and mass are 1.
 Real restitution_of(Real exponent, Real zeta) {
   const auto force = [&](Real x, Real v) {
-    if (x <= 0) return Real(0);
+    if (x < 0) return Real(0);
     const Real g = exponent == 1 ? 1 : std::sqrt(exponent * std::pow(x, exponent - 1));
     return std::pow(x, exponent) + 2 * zeta * g * v;
   };

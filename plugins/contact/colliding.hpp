@@ -27,11 +27,10 @@ struct CollidingLaw {
 
   static constexpr bool turns = frictional;
   static constexpr bool travels = true;
-  template <class T>
-  using Seen = std::conditional_t<frictional, TurningMovingEnds<T>, MovingEnds<T>>;
 
-  template <Pass pass, class At, class T>
-  [[gnu::always_inline]] Wrench<T> act(const At& at, const Seen<T>& ends) const {
+  template <Pass pass, class At, class Ends>
+  [[gnu::always_inline]] auto act(const At& at, const Ends& ends) const {
+    using T = typename At::Number;
     const T l = sqrt(dot(ends.apart, ends.apart));
     const Vec<T> n = (T(1) / l) * ends.apart;
     const T delta = max(T(0), at(c.length) - l), k = at(c.stiffness);
@@ -60,15 +59,19 @@ struct CollidingLaw {
       if (c.overlap) at.store(c.overlap, delta);
       if (c.normal_force) at.store(c.normal_force, push);
     }
-    return {copy(force), arm1 * moment, arm2 * moment};
+    return Wrench<T>{copy(force), arm1 * moment, arm2 * moment};
   }
 
-  template <class At, class T>
-  T stored(const At& at, const Seen<T>& ends) const {
+  template <class At, class Ends>
+  auto stored(const At& at, const Ends& ends) const {
+    using T = typename At::Number;
     const T delta = max(T(0), at(c.length) - sqrt(dot(ends.apart, ends.apart))), k = at(c.stiffness);
-    if constexpr (!frictional) return Normal::energy(k, delta);
-    const Vec<T> held = at(View<const Vec3>(c.tangential));
-    return Normal::energy(k, delta) + T(0.5) * dot(held, held) / across(k, delta);
+    T energy = Normal::energy(k, delta);
+    if constexpr (frictional) {
+      const Vec<T> held = at(View<const Vec3>(c.tangential));
+      energy = energy + T(0.5) * dot(held, held) / across(k, delta);
+    }
+    return energy;
   }
 
   template <class At>
@@ -77,11 +80,15 @@ struct CollidingLaw {
   }
 
   /// Stiffest: as if it touched, and held by friction.
-  Matrix12 stiffness(const One& at, const Seen<Real>& ends, Slope slope) const {
+  template <class Ends>
+  Matrix12 stiffness(const One& at, const Ends& ends, Slope slope) const {
     const Real l = ends.apart.norm();
     const Vec3 n = ends.apart / l;
     Real delta = max(0.0, at(c.length) - l);
-    if (slope == Slope::stiffest) delta = max(delta, c.expected_overlap * at(c.length));
+    if (slope == Slope::stiffest) {
+      const Real smaller = at(c.length) * min(at(c.share), 1 - at(c.share));  // radius
+      delta = max(delta, c.expected_overlap * 2 * smaller);
+    }
     if (delta <= 0) return Matrix12::Zero();
     const Real along = Normal::slope(at(c.stiffness), delta);
     Matrix12 k = stiffness::between_centres(along * (n * n.transpose()));

@@ -31,8 +31,8 @@ class BondStress final : public Failure {
   }
 
   void begin(const Domain& domain, std::uint64_t seed) override {
-    Random random = ScatteredStrength::stream(seed, id());
-    each_family(domain, [&](const BondTable& table) { strength.draw(table.id(), table.size(), random); });
+    each_family(domain,
+                [&](const BondTable& table) { strength.draw(table.id(), table.size(), seed, *this, table.name()); });
   }
 
   void judge(const Domain& domain) override {

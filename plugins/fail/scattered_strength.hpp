@@ -2,10 +2,10 @@
 // The strength of a criterion: the same for all, or with the scatter of Weibull's law, drawn once for each bond or element.
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/base/text.hpp"
 #include "core/mechanics/weibull.hpp"
 #include "core/plugin/failure.hpp"
 
@@ -28,23 +28,24 @@ class ScatteredStrength {
   void choose() { factor_.want(modulus_.given()); }
   Real operator()(Index row) const { return factor_ ? *strength_ * factor_[row] : *strength_; }
 
-  /// In the order of the ids, so that how rows are stored changes nothing; each criterion has a stream of its own.
-  void draw(View<const Index> id, Index rows, Random& random) {
-    if (!factor_) return;
+  /// For the rows of a table, where that has not been done: in the order of the ids, so that how rows are stored changes
+  /// nothing. Each criterion has a stream of its own for each family ("" for the elements).
+  void draw(View<const Index> id, Index rows, std::uint64_t seed, const Failure& criterion, const std::string& family) {
+    if (!factor_ || rows == 0 || factor_[0] > 0) return;
     std::vector<Index> order(static_cast<std::size_t>(rows));
-    for (Index row = 0; row < rows; ++row) order[static_cast<std::size_t>(row)] = row;
+    std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](Index a, Index b) { return id[a] < id[b]; });
+    Random random(seed, stream(criterion.id() + "/" + family));
     for (const Index row : order) factor_[row] = weibull_factor(*modulus_, random.uniform());
   }
 
-  /// "fail.bond-stress.2" draws other numbers than "fail.bond-stress".
-  static Random stream(std::uint64_t seed, const std::string& id) {
-    constexpr std::uint64_t first = 2000;  // far from those of packings
-    const auto number = parse_number(id.substr(id.rfind('.') + 1));
-    return Random(seed, first + (number ? static_cast<std::uint64_t>(*number) : 0));
-  }
-
  private:
+  /// A number of its own for each name (Fowler, Noll and Vo).
+  static std::uint64_t stream(const std::string& name) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    return hash;
+  }
   Param<Real> strength_;
   Param<Real> modulus_;
   Keeps<Real> factor_;

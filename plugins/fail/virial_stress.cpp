@@ -29,8 +29,7 @@ class VirialStress final : public Failure {
   }
 
   void begin(const Domain& domain, std::uint64_t seed) override {
-    Random random = ScatteredStrength::stream(seed, id());
-    strength.draw(domain.elements().column("id").view<Index>(), domain.size(), random);
+    strength.draw(domain.elements().column("id").view<Index>(), domain.size(), seed, *this, "");
   }
 
   void judge(const Domain& domain) override {
