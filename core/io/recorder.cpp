@@ -172,13 +172,13 @@ std::vector<std::filesystem::path> Recorder::frame_files() const {
 // Where a run.h5 that holds frames is kept while the run goes on: a former resume that was killed may have begun to.
 std::filesystem::path Recorder::place_for_record() const {
   std::error_code error;
+  for (const path& file : frame_files())
+    if (is_one_file(file) && fs::equivalent(file, record_, error)) return file;
+  // A kill while older ones were removed may have left any of them.
   int number = 0;
-  for (const path& file : frame_files()) {
-    if (!is_one_file(file)) continue;
-    if (fs::equivalent(file, record_, error)) return file;
-    ++number;
-  }
-  return frames_folder_ / fmt::format("{}{}.h5", one_file, number);
+  const auto named = [&] { return frames_folder_ / fmt::format("{}{}.h5", one_file, number); };
+  while (stands(named())) ++number;
+  return named();
 }
 
 // A frame that stands both in a former run.h5 and in a file of its own is the one in its own file, which is newer.

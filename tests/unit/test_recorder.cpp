@@ -306,6 +306,25 @@ TEST(Recorder, a_family_without_bonds_is_recorded_and_left_out_of_the_view) {
   EXPECT_THAT(text_of(run.folder.view()), ::testing::Not(HasSubstr("later")));
 }
 
+// A kill while the files of a former run.h5 are removed leaves some of them, whichever.
+TEST(Recorder, goes_on_from_a_whole_record_beside_which_an_older_one_was_left) {
+  const Scratch scratch;
+  Recording run(scratch / "out");
+  std::string reason;
+  run.frame(0);
+  ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+  run.go_on_from(0);
+  const fs::path older = scratch / "older.h5";
+  fs::copy_file(folder_of(run, "frames/consolidated-0.h5"), older);
+  run.frame(100);
+  ASSERT_TRUE(run.recorder.consolidate(run.domain, reason)) << reason;
+  fs::create_directory(run.folder.frames());
+  run.folder.claim(folder_of(run, "frames/consolidated-1.h5"));
+  fs::copy_file(older, folder_of(run, "frames/consolidated-1.h5"));
+  run.go_on_from(100);
+  EXPECT_THAT(steps_of(run.folder.record()), ElementsAre(0, 100));
+}
+
 TEST(Recorder, a_kill_at_any_moment_leaves_a_record_that_can_be_read_and_continued) {
   const Scratch scratch;
   Recording run(scratch / "out", 3000);
