@@ -169,9 +169,7 @@ std::string not_needed(const Scene& scene) {
   bool fails = false;
   for (const Stage& stage : scene.stages) fails |= !stage.failures.empty();
   say(!scene.domain->elements().find("orientation"), "rotations: nobody reads orientations or adds torques");
-  say(std::none_of(scene.stages.begin(), scene.stages.end(),
-                   [](const Stage& stage) { return !stage.contacts.empty(); }),
-      "search for neighbours: no law acts between elements that are not bonded");
+  say(!scene.has_contacts(), "search for neighbours: no law acts between elements that are not bonded");
   say(scene.section_readers.empty(), "forces and moments of single bonds: nobody reads them");
   say(scene.derived.empty(), "derived fields: nobody reads one");
   say(!fails, "judging bonds: no criterion of failure");

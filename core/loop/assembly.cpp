@@ -85,6 +85,10 @@ std::vector<const Plugin*> Stage::plugins() const {
   return all;
 }
 
+bool Scene::has_contacts() const {
+  return std::any_of(stages.begin(), stages.end(), [](const Stage& stage) { return !stage.contacts.empty(); });
+}
+
 std::size_t Scene::first_stage(const Plugin& plugin) const {
   for (std::size_t s = 0; s < stages.size(); ++s) {
     const auto there = stages[s].plugins();

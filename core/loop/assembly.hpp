@@ -45,6 +45,7 @@ class Assembly {
   void check_order_of_regions();
   void check_curve_names();
   void check_derived();
+  void check_judged();
   void check_name(const ParamBase& param, const std::string& name);
   std::vector<const Watcher*> watchers() const;
   void check_files();

@@ -52,6 +52,9 @@ void Assembly::add_families() {
     if (contacts) scene_.domain->add_contacts(contacts->family());
     if (bonds || contacts) scene_.families.push_back(plugin->families().front());
   }
+  if (!scene_.has_contacts()) return;
+  for (const auto& family : scene_.domain->families())  // where a pair touches after a break depends on it
+    if (!family->is_of_contacts()) family->rows().add(field::broke_at).keep();
 }
 
 // The loops find the members of an element's line side by side in this order, whichever plugin asks first.

@@ -114,7 +114,22 @@ void Assembly::check_derived() {
   }
 }
 
+// Contacts come and go by themselves.
+void Assembly::check_judged() {
+  std::set<std::string> contacts;
+  for (const auto& plugin : scene_.plugins)
+    if (plugin->kind() == Kind::contact)
+      for (const std::string& family : plugin->families()) contacts.insert(family);
+  for (const auto& plugin : scene_.plugins)
+    if (const auto* failure = as_kind<Failure>(std::as_const(*plugin)))
+      for (const std::string& family : failure->families())
+        if (contacts.contains(family))
+          complaints_.error(failure->of.at(family),
+                            fmt::format("'of' names the contacts \"{}\": bonds break, contacts do not", family));
+}
+
 void Assembly::check_names() {
+  check_judged();
   check_derived();
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));

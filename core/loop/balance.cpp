@@ -106,7 +106,7 @@ void Balance::release(const Stage& next) {
     state_.released_by(*table) += held + blaming(*law, state_.moment, [&, law = law, table = table] {
                                     return law->dissipated_energy(state_.domain(), *table);
                                   });
-    log_.say(fmt::format("bond family '{}' acts no longer: the {:.4g} J that it held are booked as dissipated",
+    log_.say(fmt::format("family '{}' acts no longer: the {:.4g} J that it held are booked as dissipated",
                          law->family(), held));
     return true;
   });
@@ -238,16 +238,23 @@ QualityFigures Balance::quality(bool failed) const {
   return figures;
 }
 
-// Energy that would move each element by a billionth of its radius in a step: what is at rest swings by less.
+// Energy that would move each element by a billionth of its radius in a step: what is at rest swings by less. What is
+// held still does not swing, however large it is.
 Real Balance::round_off() const {
   const Domain& domain = state_.domain();
   const Column* weights = domain.elements().find("mass");
   const Real time_step = state_.moment.time_step;
   if (!weights || !(time_step > 0)) return 0;
+  std::vector<char> held(static_cast<std::size_t>(domain.size()), 0);  // axes, bit by bit
+  for (const Constraint& c : state_.held())
+    if (c.grip == Grip::each && !c.driven && c.axis < 3)
+      for (const Index row : domain.set(c.set)) held[static_cast<std::size_t>(row)] |= static_cast<char>(1 << c.axis);
   const auto mass = weights->view<Real>();
   const auto radius = domain.elements().column("radius").view<Real>();
   const Real rate = 1e-9 / time_step;
-  return 0.5 * rate * rate * fixed_sum(domain.size(), [&](Index i) { return mass[i] * radius[i] * radius[i]; });
+  return 0.5 * rate * rate * fixed_sum(domain.size(), [&](Index i) {
+           return held[static_cast<std::size_t>(i)] == 7 ? 0 : mass[i] * radius[i] * radius[i];
+         });
 }
 
 }  // namespace beadwork

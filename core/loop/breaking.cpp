@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/domain/vocabulary.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/handed_over.hpp"
 
@@ -94,12 +95,14 @@ void Breaking::fell_bond(Failure& failure, BondTable& table, Index row, Index el
   offered_.clear(table, row);
 }
 
-void Breaking::note(const BondTable& table, Index row, const std::string& mode, Real energy, Index element) {
+void Breaking::note(BondTable& table, Index row, const std::string& mode, Real energy, Index element) {
   const auto x = state_.domain().elements().column("position").view<Vec3>();
   const Vec3 place = 0.5 * (x[table.first()[row]] + x[table.second()[row]]);
   BreakLog& log = state_.domain().breaks();
   log.breaks.push_back({state_.moment.time, state_.moment.step, state_.number_of(table), table.id()[row],
                         log.mode(mode), place, energy, element});
+  if (Column* broke_at = table.rows().find(field::broke_at.name))
+    broke_at->view<Real>()[row] = (x[table.second()[row]] - x[table.first()[row]]).norm();
 }
 
 void Breaking::count_live() {

@@ -34,7 +34,7 @@ class Breaking {
   void fell(const Fallen& fallen);
   void fell_bond(Failure& failure, BondTable& table, Index row, Index element);
   void fell_element(Failure& failure, Index row);
-  void note(const BondTable& table, Index row, const std::string& mode, Real energy, Index element = -1);
+  void note(BondTable& table, Index row, const std::string& mode, Real energy, Index element = -1);
   void count_live();
 
   RunState& state_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "core/base/failure.hpp"
@@ -24,7 +25,9 @@ bool has(const Pairs& sorted, const std::pair<Index, Index>& pair) {
 
 void Contacts::begin_stage() {
   resume_stage();
-  if (!state_.stage().contacts.empty()) search();
+  if (state_.stage().contacts.empty()) return;
+  search();
+  warn_of_two_laws();
 }
 
 void Contacts::resume_stage() {
@@ -67,51 +70,99 @@ Real Contacts::skin(const ContactLaw& law) const {
   return *law.skin * smallest;
 }
 
-// Pairs that a bond of this stage holds, or held until it broke. A broken contact that still acts holds its pair.
-Pairs Contacts::held_pairs(bool broken) const {
+// Pairs that a bond of this stage holds. A broken contact that still acts holds its pair.
+Pairs Contacts::held_pairs() const {
   Pairs all;
   for (const auto& [law, table] : state_.laws) {
     if (table->is_of_contacts()) continue;
-    for (Index row = 0; row < table->size(); ++row) {
-      const bool holds = table->state()[row] < State::broken || law->acts_when_broken();
-      if (holds != broken) all.emplace_back(table->first()[row], table->second()[row]);
-    }
+    for (Index row = 0; row < table->size(); ++row)
+      if (table->state()[row] < State::broken || law->acts_when_broken())
+        all.emplace_back(table->first()[row], table->second()[row]);
   }
   std::sort(all.begin(), all.end());
   return all;
 }
 
+// Pairs of which a bond broke, in whatever stage, and at which distance of the centres; the nearest of several.
+std::map<std::pair<Index, Index>, Real> Contacts::broken_pairs() const {
+  std::map<std::pair<Index, Index>, Real> all;
+  const Domain& domain = state_.domain();
+  for (const BondTable* table : domain.families()) {
+    if (table->is_of_contacts()) continue;
+    const auto broke_at = table->rows().column(field::broke_at.name).view<Real>();
+    for (Index row = 0; row < table->size(); ++row) {
+      if (table->state()[row] < State::broken) continue;
+      const auto [there, fresh] = all.try_emplace({table->first()[row], table->second()[row]}, broke_at[row]);
+      if (!fresh) there->second = std::min<Real>(there->second, broke_at[row]);
+    }
+  }
+  return all;
+}
+
+// Both would push.
+void Contacts::warn_of_two_laws() const {
+  const auto& laws = state_.stage().contacts;
+  for (std::size_t k = 1; k < laws.size(); ++k)
+    for (std::size_t other = 0; other < k; ++other) {
+      const BondTable &one = *state_.domain().find_family(laws[other]->family()),
+                      &two = *state_.domain().find_family(laws[k]->family());
+      const auto pairs_of = [](const BondTable& table) {
+        Pairs pairs;
+        for (Index row = 0; row < table.size(); ++row) pairs.emplace_back(table.first()[row], table.second()[row]);
+        return pairs;
+      };
+      Pairs both;
+      const Pairs a = pairs_of(one), b = pairs_of(two);
+      std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+      if (!both.empty())
+        log_.warn(fmt::format(
+            "{}: contacts '{}' and '{}' both act on {} pairs that are near one another, and their forces add up",
+            laws[k]->at().where(), two.name(), one.name(), both.size()));
+    }
+}
+
 void Contacts::search() {
   Domain& domain = state_.domain();
-  const Pairs bonded = held_pairs(false);
+  const Pairs bonded = held_pairs();
   for (ContactLaw* law : state_.stage().contacts) meet_and_part(*law, *domain.find_family(law->family()), bonded);
   const auto position = domain.elements().column("position").view<Vec3>();
   const auto searched_at = domain.elements().column("searched-at").view<Vec3>();
   for (Index row = 0; row < domain.size(); ++row) searched_at.set(row, position[row]);
   state_.breaks_searched = static_cast<Real>(domain.breaks().breaks.size());
+  state_.searches += 1;
   domain.cut_families();
   domain.clear_halo();
   state_.scene.bind();
 }
 
-// A pair that was bonded touches from where it stands: a break makes no jump.
+// A pair that was bonded touches from the distance at which its bond broke: a break makes no jump. What a pair stores that
+// is followed no longer, since it has been bonded, is booked as released.
 void Contacts::meet_and_part(ContactLaw& law, BondTable& table, const Pairs& bonded) {
   const Domain& domain = state_.domain();
   Pairs pairs = pairs_in_reach(law, domain, skin(law));
   std::erase_if(pairs, [&](const auto& pair) { return has(bonded, pair); });
   for (Index row = 0; row < table.size(); ++row)
-    if (!has(pairs, {table.first()[row], table.second()[row]}))
+    if (!has(pairs, {table.first()[row], table.second()[row]})) {
+      const Real held = blaming(law, state_.moment, [&] { return law.stored_energy(domain, table, row); });
+      if (held != 0) state_.released_by(table) += held;
       blaming(law, state_.moment, [&] { law.part(table, row); });
+    }
   const std::vector<Index> fresh = table.renew(pairs);
   state_.scene.bind();
-  const Pairs broken = held_pairs(true);
+  const auto broken = broken_pairs();
+  const auto id = domain.elements().column("id").view<Index>();
   const auto x = domain.elements().column("position").view<Vec3>();
   const auto radius = domain.elements().column("radius").view<Real>();
   const auto length = table.rows().column("contact-length").view<Real>();
   for (const Index row : fresh) {
     const Index i = table.first()[row], j = table.second()[row];
+    if (!((x[j] - x[i]).norm() > 1e-12 * (radius[i] + radius[j])))
+      throw PhysicsFailure(fmt::format(
+          "{}: error: elements {} and {} stand at one place, where contacts '{}' have no direction to push in",
+          law.at().where(), id[i], id[j], law.family()));
     length[row] = radius[i] + radius[j];
-    if (has(broken, {i, j})) length[row] = std::min<Real>(length[row], (x[j] - x[i]).norm());
+    if (const auto found = broken.find({i, j}); found != broken.end())
+      length[row] = std::min<Real>(length[row], found->second);
     blaming(law, state_.moment, [&] { law.meet(domain, table, row); });
   }
 }

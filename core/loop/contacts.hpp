@@ -2,13 +2,15 @@
 // Which elements may touch: looked for when a stage begins, when something has moved by half a skin, and when a bond has
 // broken, always between two steps.
 
+#include <map>
+
 #include "core/loop/run_state.hpp"
 
 namespace beadwork {
 
 class Contacts {
  public:
-  explicit Contacts(RunState& state) : state_(state) {}
+  Contacts(RunState& state, const Log& log) : state_(state), log_(log) {}
 
   /// The pairs of the contact laws of the stage, anew; after a restart those that were kept.
   void begin_stage();
@@ -20,11 +22,14 @@ class Contacts {
  private:
   void search();
   bool are_old() const;
-  std::vector<std::pair<Index, Index>> held_pairs(bool broken) const;
+  std::vector<std::pair<Index, Index>> held_pairs() const;
+  std::map<std::pair<Index, Index>, Real> broken_pairs() const;
+  void warn_of_two_laws() const;
   void meet_and_part(ContactLaw& law, BondTable& table, const std::vector<std::pair<Index, Index>>& bonded);
   Real skin(const ContactLaw& law) const;
 
   RunState& state_;
+  const Log& log_;
   Real narrowest_ = 0;  ///< half of the narrowest skin of the stage [m]
 };
 

@@ -18,7 +18,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       fresh_(state_, offered_, forces_, *this),
       balance_(state_, fresh_, options_.log),
       breaking_(state_, offered_, fresh_, balance_),
-      contacts_(state_),
+      contacts_(state_, options_.log),
       record_(state_, catalogue, folder, options_, fresh_, balance_),
       seen_(state_, balance_, record_),
       looks_(state_, fresh_, offered_, seen_, options_.log) {

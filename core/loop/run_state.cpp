@@ -29,9 +29,11 @@ RunState::RunState(Scene& s)
       wall_seconds(s.domain->scene(), "wall-seconds", "s", "Time spent in all"),
       initial_energy(s.domain->scene(), "initial-energy", "J", "Energy that was there without any work"),
       looks_owed(s.domain->scene(), "looks-owed", "1", "Watchers that have not had their turn at this step") {
-  if (std::any_of(scene.stages.begin(), scene.stages.end(), [](const Stage& stage) { return !stage.contacts.empty(); }))
+  if (scene.has_contacts()) {
     breaks_searched.stand_in(domain().scene(), "breaks-searched", "1",
                              "Breaks that were there when pairs that may touch were last looked for");
+    searches.stand_in(domain().scene(), "searches", "1", "How often pairs that may touch were looked for");
+  }
   for (const Stage& one : scene.stages) {
     constraints.push_back(one.constraints());
     peaks.push_back(peaks_of(constraints.back()));

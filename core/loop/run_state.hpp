@@ -43,6 +43,7 @@ class RunState {
   Kept initial_energy;          ///< there without any work [J]
   Kept looks_owed;              ///< watchers of the stage that have not had their turn at this step, last in the order
   Kept breaks_searched;         ///< breaks that were there when pairs that may touch were last looked for
+  Kept searches;                ///< how often they were
   std::vector<ActingLaw> laws;  ///< of the present stage
 
   Domain& domain() const { return *scene.domain; }

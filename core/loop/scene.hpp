@@ -66,6 +66,7 @@ class Scene {
 
   /// Points the views of all plugins at the columns of the domain: whenever these may have moved.
   void bind() const;
+  bool has_contacts() const;
   /// The number of the stage in which a plugin first stands.
   std::size_t first_stage(const Plugin& plugin) const;
   /// Paths of the files on which a run depends beside the deck: of data, and plugin libraries that are not the

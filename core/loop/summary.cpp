@@ -97,6 +97,7 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   json["bonds"] = Json::object();
   for (const BondTable* family : domain.families())
     json[family->is_of_contacts() ? "contacts" : "bonds"][family->name()] = family->size();
+  if (scene.has_contacts()) json["searches"] = std::llround(state.searches);
   json["steps"] = moment.step;
   json["time"] = moment.time;
   json["time_step"] = moment.time_step;

@@ -72,25 +72,21 @@ template <class T>
   return scale * across;
 }
 
+/// (T2) and (T3): the force on end 2 [N]. `before`: that of the last step, carried along.
 template <class T>
-struct Friction {
-  Vec<T> force;  ///< on end 2 [N]
-  T lost;        ///< by slip in this step, and by a stiffness that fell [J]
-};
+[[gnu::always_inline]] inline Vec<T> friction(const Vec<T>& before, const T& k_before, const T& k, const Vec<T>& way,
+                                              const T& cap) {
+  const Vec<T> tried = min(T(1), k / k_before) * before - k * way;
+  const T size = sqrt(dot(tried, tried));
+  return (min(size, cap) / select(size > T(0), size, T(1))) * tried;
+}
 
-/// (T2) and (T3). `before`: what is kept of the last step, carried along.
+/// What is lost in a step by slip and by a stiffness that falls: the work that the scheme lets the force take over the way,
+/// which is that of the trapezoid, less what is stored [J].
 template <class T>
-[[gnu::always_inline]] inline Friction<T> friction(const Vec<T>& before, const T& k_before, const T& k,
-                                                   const Vec<T>& way, const T& cap) {
-  const T share = min(T(1), k / k_before);
-  const Vec<T> held = share * before;
-  const Vec<T> tried = held - k * way;
-  const T held_size = sqrt(dot(held, held)), size = sqrt(dot(tried, tried));
-  const T left = min(size, cap);
-  const Vec<T> force = (left / select(size > T(0), size, T(1))) * tried;
-  const T slip = (size - left) / k;
-  const T fallen = T(0.5) * (dot(before, before) / k_before - held_size * held_size / k);
-  return {copy(force), T(0.5) * (held_size + left) * slip + max(T(0), fallen)};
+[[gnu::always_inline]] inline T lost_by_friction(const Vec<T>& before, const T& k_before, const Vec<T>& now, const T& k,
+                                                 const Vec<T>& way) {
+  return T(-0.5) * dot(before + now, way) - T(0.5) * (dot(now, now) / k - dot(before, before) / k_before);
 }
 
 }  // namespace beadwork

@@ -48,7 +48,7 @@ struct CollidingLaw {
     Vec<T> force = push * n, moment = zero<Vec<T>>();
     const T arm1 = arm(at, l), arm2 = l - arm1;
     if constexpr (frictional) {
-      const Friction<T> drag = dragged<pass>(at, ends, n, rate - v_n * n, arm1, arm2, delta, push);
+      const Drag<T> drag = dragged<pass>(at, ends, n, rate - v_n * n, arm1, arm2, delta, push);
       lost = lost + drag.lost;
       force = force + drag.force;
       moment = cross(drag.force, n);
@@ -102,6 +102,12 @@ struct CollidingLaw {
   }
 
  private:
+  template <class T>
+  struct Drag {
+    Vec<T> force;  ///< of friction, on end 2 [N]
+    T lost;        ///< by it in this step [J]
+  };
+
   /// Tangential stiffness; never quite nothing, by which something is divided.
   template <class T>
   [[gnu::always_inline]] T across(const T& k, const T& delta) const {
@@ -114,8 +120,8 @@ struct CollidingLaw {
   }
 
   template <Pass pass, class At, class Ends, class T>
-  [[gnu::always_inline]] Friction<T> dragged(const At& at, const Ends& ends, const Vec<T>& n, const Vec<T>& rate,
-                                             const T& arm1, const T& arm2, const T& delta, const T& push) const {
+  [[gnu::always_inline]] Drag<T> dragged(const At& at, const Ends& ends, const Vec<T>& n, const Vec<T>& rate,
+                                         const T& arm1, const T& arm2, const T& delta, const T& push) const {
     const auto touches = delta > T(0);
     const Vec<T> slide = rate - cross(arm1 * ends.w1 + arm2 * ends.w2, n);
     const T k = across(at(c.stiffness), delta);
@@ -126,11 +132,9 @@ struct CollidingLaw {
     }
     const Vec<T> old = at(View<const Vec3>(c.tangential));
     const T turn = T(0.5 * c.time_step) * dot(ends.w1 + ends.w2, n);
-    const Friction<T> found =
-        friction<T>(carried_across<T>(n, old, turn), before, k, T(c.time_step) * slide, T(c.friction) * push);
-    // what was held when the surfaces part is lost
-    const Friction<T> drag{select(touches, T(1), T(0)) * found.force,
-                           select(touches, found.lost, T(0.5) * dot(old, old) / before)};
+    const Vec<T> carried = carried_across<T>(n, old, turn), way = T(c.time_step) * slide;
+    const Vec<T> held = select(touches, T(1), T(0)) * friction<T>(carried, before, k, way, T(c.friction) * push);
+    const Drag<T> drag{copy(held), lost_by_friction<T>(carried, before, held, k, way)};
     if constexpr (pass.settle) {
       at.store(c.tangential, drag.force);
       if constexpr (!Normal::even) at.store(c.tangential_stiffness, select(touches, k, T(0)));

@@ -19,16 +19,23 @@ class Gravity final : public Load {
   Reads<Vec3> position{this, field::position};
   Reads<Real> mass{this, field::mass};
   Keeps<Real> work{this, {"work", On::scene, "J", "Work of the weight so far"}};
-  Keeps<Real> height{this, {"height", On::scene, "J", "Sum of m g.x at the last step"}};
+  Keeps<Real> fallen{this, {"fallen", On::scene, "J", "Sum of m g.(x - x at the start) at the last step"}};
+  // Apart, lest what falls is lost in the digits of something far heavier that is held.
+  Keeps<Vec3> from{this, {"fallen-from", On::elements, "m", "Place when the weight began to act"}};
 
-  void start(Domain& domain) override { height[0] = lift(domain); }
+  Gravity() { from.own(); }  // each from where it began
+
+  void start(Domain& domain) override {
+    for (Index row = 0; row < domain.size(); ++row) from.set(row, position[row]);
+    fallen[0] = 0;
+  }
   void push(Domain& domain, const Moment&) override {
     each(domain, [&](Index row) { force.add(row, mass[row] * *acceleration); });
   }
   void account(const Domain& domain, const Moment&) override {
-    const Real now = lift(domain);
-    work[0] += now - height[0];
-    height[0] = now;
+    const Real now = work_since_start(domain);
+    work[0] += now - fallen[0];
+    fallen[0] = now;
   }
   void energy(EnergySink& sink) const override { sink.work("gravity", work[0]); }
 
@@ -38,8 +45,8 @@ class Gravity final : public Load {
     if (!set.given()) return each_shared(domain.size(), f, 4096);
     for (const Index row : domain.set(*set)) f(row);
   }
-  Real lift(const Domain& domain) const {
-    const auto term = [&](Index row) { return mass[row] * acceleration->dot(Vec3(position[row])); };
+  Real work_since_start(const Domain& domain) const {
+    const auto term = [&](Index row) { return mass[row] * acceleration->dot(Vec3(position[row] - from[row])); };
     if (!set.given()) return fixed_sum(domain.size(), term);
     const Set& members = domain.set(*set);
     return fixed_sum(static_cast<Index>(members.size()),

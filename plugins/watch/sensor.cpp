@@ -85,15 +85,22 @@ class Sensor final : public Watcher {
       if (set.given())
         refuse(field.at(), fmt::format("'{}' is no field of elements, and 'set' is of these", field->front()));
     }
+    bool found = false;
     for (const BondTable* table : domain.families()) {
       if (bonds.given() && table->name() != *bonds) continue;
       const Column* column = table->rows().find(field->front());
       if (!column) continue;
+      found = true;
+      unit_ = column->field().unit;
       for (const Chunk& chunk : table->chunks())
         for (Index row = chunk.begin; row < chunk.live_end; ++row) take(*column, row);
     }
+    if (!found)
+      refuse(field.at(), fmt::format("'{}' is no field of bonds{}", field->front(),
+                                     bonds.given() ? fmt::format(" of '{}'", *bonds) : ""));
   }
   void take_elements(const Domain& domain, const Column& column) {
+    unit_ = column.field().unit;
     if (set.given())
       for (const Index row : domain.set(*set)) take(column, row);
     else
@@ -101,7 +108,6 @@ class Sensor final : public Watcher {
   }
 
   void take(const Column& column, Index row) {
-    unit_ = column.field().unit;
     switch (column.field().type) {
       case Type::real: require({}); return values_.push_back(column.view<Real>()[row]);
       case Type::index: require({}); return values_.push_back(static_cast<Real>(column.view<Index>()[row]));

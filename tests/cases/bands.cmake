@@ -1,5 +1,5 @@
 # Small cases held in bands of their exact values.
-foreach(case two-elements cantilever bar-wave notched-bar notched-bar-rdef tension dcb glued-block)
+foreach(case two-elements cantilever bar-wave notched-bar notched-bar-rdef tension dcb glued-block heap)
   add_test(NAME cases/${case} COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/bands.py ${case} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
   set_tests_properties(cases/${case} PROPERTIES LABELS cases TIMEOUT 300 ENVIRONMENT "BEADWORK_PLUGINS=")
 endforeach()

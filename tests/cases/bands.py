@@ -208,6 +208,23 @@ def notched_bar_rdef():
     near("twice the strength, twice the peak", max(strong.curve("force")["force"]), 2 * peak, 0.03)
 
 
+# Spheres that fall on a floor: what they lose goes into friction and damping.
+def heap():
+    result = run("heap/quick.xml")
+    with h5py.File(result.folder / "run.h5") as file:
+        first, last = file["frames"][min(file["frames"])], file["frames"][max(file["frames"])]
+        radius = first["elements/radius"][:][1:]  # without the floor
+        fallen = first["elements/position"][:][1:, 2] - last["elements/position"][:][1:, 2]
+        bottom = last["elements/position"][:][1:, 2] - radius
+    weight = 2500 * 4 / 3 * math.pi * radius**3 * 9.80665
+    near("work of the weight is what has fallen", result.energy["work: gravity"], float((weight * fallen).sum()), 2e-3)
+    below("ledger's residual over work", residual_over_work(result.energy), 0.005)
+    below("deepest overlap with the floor over a radius", max(0, -float((bottom / radius).min())), 0.02)
+    below("kinetic energy left over the work: marbles that roll away", result.energy["kinetic"] / result.energy["work"], 0.15)
+    finer = run("heap/quick.xml", steps="60")
+    below("a third of the step: residual over work", residual_over_work(finer.energy), 0.001)
+
+
 # Strains along the three axes and force of the last frame, over those elements that `inside` picks by their places.
 def stretch(result, inside):
     with h5py.File(result.folder / "run.h5") as file:
@@ -281,6 +298,6 @@ def glued_block():
 
 with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
     {"two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar, "notched-bar-rdef": notched_bar_rdef,
-     "tension": tension, "dcb": dcb, "glued-block": glued_block}[CASE]()
+     "tension": tension, "heap": heap, "dcb": dcb, "glued-block": glued_block}[CASE]()
 if failed:
     sys.exit(f"{CASE}: out of band: {', '.join(failed)}")

@@ -27,7 +27,7 @@ class Parts : private Workings {
         fresh(state, offered, forces, *this),
         balance(state, fresh, options.log),
         breaking(state, offered, fresh, balance),
-        contacts(state) {
+        contacts(state, options.log) {
     scene->bind();
   }
 
