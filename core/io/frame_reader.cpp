@@ -58,7 +58,7 @@ std::vector<FieldValues> read_fields(hid_t group, std::initializer_list<const ch
     FieldValues field;
     field.name = name;
     field.is_length = vector;
-    field.unit = h5::label_of(group, name).unit;
+    field.unit = h5::unit_of(group, name);
     if (vector)
       for (const Vec3& v : vectors(group, name)) field.values.push_back(v.norm());
     else
@@ -108,7 +108,8 @@ FrameReader::FrameReader(const std::filesystem::path& file, SymbolicLinks links)
   const h5::Silence silence;
   file_->handle = h5::open_file(file, links);
   std::error_code error;  // of a path that leads nowhere: then it could not be opened
-  file_->folder = (links == SymbolicLinks::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
+  file_->folder =
+      (links == SymbolicLinks::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
   if (!has(file_->handle.id(), "frames")) return;
   for (const std::string& name : h5::names_in(h5::open_group(file_->handle.id(), "frames").id())) {
     try {

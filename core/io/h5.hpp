@@ -94,8 +94,8 @@ struct Shape {
   std::size_t bytes = 0;  ///< of one number
 };
 Shape shape_of(hid_t place, const std::string& name);
-/// Unit and long_name of a dataset, empty where it has none.
-Label label_of(hid_t place, const std::string& name);
+/// The unit of a dataset, empty where it says none.
+std::string unit_of(hid_t place, const std::string& name);
 
 bool has_attribute(hid_t object, const std::string& name);
 std::string text_attribute(hid_t object, const std::string& name);
@@ -111,8 +111,6 @@ std::vector<std::string> read_texts(hid_t place, const std::string& name);
 std::vector<Real> read_reals(hid_t place, const std::string& name, int width = 1);
 std::vector<Index> read_indices(hid_t place, const std::string& name, int width = 1);
 std::vector<std::int64_t> read_integers(hid_t place, const std::string& name);
-/// The numbers of a dataset of any shape.
-std::vector<Real> read_all_reals(hid_t place, const std::string& name);
 
 /// The field as which a dataset was written.
 Field read_field(hid_t place, const std::string& name, On on);
