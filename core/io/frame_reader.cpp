@@ -154,17 +154,13 @@ Breaks FrameReader::breaks() const {
   const Handle group = h5::open_group(file_->handle.id(), "breaks");
   if (!has(group.id(), "time")) return log;
   log.time = h5::read_reals(group.id(), "time");
-  if (has(group.id(), "family")) log.family = words(group.id(), "family");
   if (has(group.id(), "mode")) log.mode = words(group.id(), "mode");
-  if (has(group.id(), "place")) log.place = vectors(group.id(), "place");
   if (has(group.id(), "energy")) log.energy = h5::read_reals(group.id(), "energy");
   // A run that was killed may have left columns of different lengths; the rows that are whole count.
   std::size_t rows = log.time.size();
   if (!log.mode.empty()) rows = std::min(rows, log.mode.size());
   log.time.resize(rows);
-  log.family.resize(rows);
   log.mode.resize(rows, "broken");
-  log.place.resize(std::min(rows, log.place.size()));
   log.energy.resize(std::min(rows, log.energy.size()));
   return log;
 }
