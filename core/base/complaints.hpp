@@ -17,7 +17,6 @@ class Complaints {
 
   int errors() const { return errors_; }
   int warnings() const { return warnings_; }
-  bool empty() const { return list_.empty(); }
 
   /// In the format of a compiler, with the source line and a caret below each, and the number of errors at
   /// the end. Order: by file as they first appeared, then by place; what stands nowhere comes last.

@@ -135,18 +135,6 @@ std::string join(const std::vector<std::string>& words, std::string_view separat
   return text;
 }
 
-std::string kebab_from_snake(std::string_view name) {
-  std::string result(name);
-  std::replace(result.begin(), result.end(), '_', '-');
-  return result;
-}
-
-std::string snake_from_kebab(std::string_view name) {
-  std::string result(name);
-  std::replace(result.begin(), result.end(), '-', '_');
-  return result;
-}
-
 bool is_plain_name(std::string_view name) {
   const auto plain = [](unsigned char c) { return c > ' ' && c != 127 && c != '/' && c != '\\' && c != '"'; };
   return name.size() <= 100 && name.find_first_not_of('.') != std::string_view::npos &&

@@ -34,8 +34,6 @@ std::string_view trim(std::string_view text);
 std::vector<std::string> split_words(std::string_view text);            ///< at white space; no empty words
 std::vector<std::string> split(std::string_view text, char separator);  ///< keeps empty pieces
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
-std::string kebab_from_snake(std::string_view name);  ///< free_filling -> free-filling
-std::string snake_from_kebab(std::string_view name);
 std::string shell_quoted(
     std::string_view word);  ///< as one word of one line of bash; as it is where that needs no quotes
 std::string xml_escaped(std::string_view text);  ///< for an attribute in double quotes; safe_text

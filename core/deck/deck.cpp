@@ -161,12 +161,6 @@ const Attribute* Node::find(std::string_view name) const {
   return nullptr;
 }
 
-const Node* Node::child(std::string_view tag_name) const {
-  for (const auto& each : children)
-    if (each->tag == tag_name) return each.get();
-  return nullptr;
-}
-
 std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Override>& overrides,
                                 Complaints& complaints) {
   auto deck = std::make_unique<Deck>();

@@ -22,7 +22,6 @@ std::string path_beside(const Location& at, const std::string& path);
 struct Attribute {
   std::string name, value;     ///< value with its entities decoded
   Location name_at, value_at;  ///< value_at: its first character, behind the quote
-  mutable bool used = false;   ///< set by the readers (read.hpp); what stays unused is an error of the deck
 
   /// Where the character value[offset] stands in the file.
   Location place(std::size_t offset) const { return locate(value_at, offset); }
@@ -35,7 +34,6 @@ struct Node {
   std::vector<std::unique_ptr<Node>> children;
 
   const Attribute* find(std::string_view name) const;  ///< the attribute, or null
-  const Node* child(std::string_view tag_name) const;  ///< the first child with this tag, or null
 };
 
 /// `--set name=value` of the command line.

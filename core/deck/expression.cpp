@@ -61,7 +61,6 @@ std::optional<Expression> Expression::compile(std::string_view text, const Locat
 
 std::optional<Expression> Expression::compile(const Attribute& attribute, const Scope& scope,
                                               std::span<const Variable> variables, Complaints& complaints) {
-  attribute.used = true;
   return compile(attribute.value, attribute.value_at, scope, variables, complaints);
 }
 

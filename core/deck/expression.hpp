@@ -37,7 +37,7 @@ class Expression {
   /// if() are checked.
   static std::optional<Expression> compile(std::string_view text, const Location& start, const Scope& scope,
                                            std::span<const Variable> variables, Complaints& complaints);
-  /// The whole value of an attribute, which then counts as used.
+  /// The whole value of an attribute.
   static std::optional<Expression> compile(const Attribute& attribute, const Scope& scope,
                                            std::span<const Variable> variables, Complaints& complaints);
 

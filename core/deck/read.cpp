@@ -59,7 +59,6 @@ std::optional<std::string> objection(const Value& value, std::string_view unit, 
 /// Values whose units are these in turn.
 std::optional<std::vector<double>> read_values(const Attribute& attribute, const std::vector<std::string_view>& units,
                                                const Scope& scope, Complaints& complaints, const Refusal& refuse) {
-  attribute.used = true;
   std::optional<ValueMistake> mistake;
   const auto values = evaluate_pieces(attribute.value, attribute.value_at, scope, complaints, mistake);
   if (mistake) return refuse(mistake->reason.empty() ? "" : ": " + mistake->reason, mistake->at);
@@ -107,12 +106,6 @@ std::optional<double> read_quantity(const Attribute& attribute, std::string_view
   if (!values) return {};
   if (values->size() != 1) return refuse(" which are " + std::to_string(values->size()) + " values");
   return values->front();
-}
-
-std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
-                                                   const Scope& scope, Complaints& complaints) {
-  return read_values(attribute, {unit}, scope, complaints,
-                     Refusal(attribute, "values, each " + wanted_by(unit), scope, complaints));
 }
 
 std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view unit, const Scope& scope,
@@ -169,7 +162,6 @@ std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attri
     if (fits) rows.push_back(std::move(*values));
     begin = end + 1;
   }
-  attribute.used = true;
   if (!all_right) return {};
   return rows;
 }
@@ -186,7 +178,6 @@ std::optional<std::int64_t> read_integer(const Attribute& attribute, const Scope
 }
 
 std::optional<std::string> read_text(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
-  attribute.used = true;
   const auto text = text_of(attribute.value, attribute.value_at, scope, complaints);
   if (!text) return {};
   if (!trim(*text).empty()) return std::string(trim(*text));

@@ -1,7 +1,7 @@
 #pragma once
 // Typed readers for one attribute. Each returns nothing and complains, at the exact place, if the text is not
-// what is wanted; each marks the attribute as used. `unit` is the unit in which the reader's owner thinks
-// ("J/m2", "1"): only its dimension and its name in messages matter, results are always in SI.
+// what is wanted. `unit` is the unit in which the reader's owner thinks ("J/m2", "1"): only its dimension and its name
+// in messages matter, results are always in SI.
 //
 // A value is a number with its unit, "13.5 mm", or ${expression}; "${2*n} mm" gives a plain result its unit.
 // In a list a unit holds for the number before it and for all bare numbers before that: "14 14 28 um". A 0 needs none.
@@ -23,9 +23,6 @@ std::optional<double> read_quantity(const Attribute& attribute, std::string_view
                                     Complaints& complaints);
 std::optional<Vec3> read_vector(const Attribute& attribute, std::string_view unit, const Scope& scope,
                                 Complaints& complaints);
-/// Any number of values, at least one.
-std::optional<std::vector<double>> read_quantities(const Attribute& attribute, std::string_view unit,
-                                                   const Scope& scope, Complaints& complaints);
 /// Rows joined by commas, each with one value for each of the units: "0 s 0 m/s, 1 ms 2 m/s".
 std::optional<std::vector<std::vector<double>>> read_rows(const Attribute& attribute,
                                                           const std::vector<std::string>& units, const Scope& scope,

@@ -44,9 +44,6 @@ class Curve {
   /// Writes a text about the curve beside it: curves/force.csv, curves/force.json.
   void write_sidecar(const std::string& json) const;
 
-  const std::filesystem::path& file() const { return file_; }
-  std::size_t columns() const { return columns_; }
-
  private:
   Curve(std::filesystem::path file, const std::vector<CurveColumn>& columns);
   void open();

@@ -8,15 +8,15 @@ namespace {
 
 // The named columns first, then the asked-for ones that are not among them.
 void write_columns(hid_t group, const Table& table, std::initializer_list<const char*> always,
-                   const std::vector<const Column*>& asked, h5::Storage storage) {
+                   const std::vector<const Column*>& asked) {
   std::vector<const Column*> columns;
   for (const char* name : always) columns.push_back(&table.column(name));
   for (const Column* column : asked)
     if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
-  for (const Column* column : columns) h5::write_column(group, *column, table.size(), storage);
+  for (const Column* column : columns) h5::write_column(group, *column, table.size());
 }
 
-void write_family(hid_t place, const FamilyRequest& request, h5::Storage storage) {
+void write_family(hid_t place, const FamilyRequest& request) {
   const BondTable& table = *request.table;
   const h5::Handle group = h5::make_group(place, table.name());
   h5::set_attribute(group.id(), "law", request.law);
@@ -24,8 +24,8 @@ void write_family(hid_t place, const FamilyRequest& request, h5::Storage storage
   ends.reserve(2 * static_cast<std::size_t>(table.size()));
   for (Index bond = 0; bond < table.size(); ++bond)
     ends.insert(ends.end(), {table.first()[bond], table.second()[bond]});
-  h5::write_indices(group.id(), "ends", ends, 2, {"1", "Rows of the two elements in this frame"}, storage);
-  write_columns(group.id(), table.rows(), {"id", "state"}, request.columns, storage);
+  h5::write_indices(group.id(), "ends", ends, 2, {"1", "Rows of the two elements in this frame"});
+  write_columns(group.id(), table.rows(), {"id", "state"}, request.columns);
 }
 
 XdmfGrid describe_grid(hid_t place, const std::string& name, const std::string& title, const std::string& path) {
@@ -43,17 +43,16 @@ XdmfGrid describe_grid(hid_t place, const std::string& name, const std::string& 
 
 }  // namespace
 
-void write_frame(hid_t group, const FrameStamp& stamp, const FrameRequest& request, const Domain& domain,
-                 h5::Storage storage) {
+void write_frame(hid_t group, const FrameStamp& stamp, const FrameRequest& request, const Domain& domain) {
   h5::set_attribute(group, "time", stamp.time);
   h5::set_attribute(group, "step", stamp.step);
   h5::set_attribute(group, "stage", static_cast<std::int64_t>(stamp.stage));
   if (request.picture) h5::set_attribute(group, "picture", std::int64_t{1});
   if (!request.view.empty()) h5::set_attribute(group, "view", request.view);
   const h5::Handle elements = h5::make_group(group, "elements");
-  write_columns(elements.id(), domain.elements(), {"id", "position", "radius"}, request.elements, storage);
+  write_columns(elements.id(), domain.elements(), {"id", "position", "radius"}, request.elements);
   const h5::Handle bonds = h5::make_group(group, "bonds");
-  for (const FamilyRequest& family : request.bonds) write_family(bonds.id(), family, storage);
+  for (const FamilyRequest& family : request.bonds) write_family(bonds.id(), family);
 }
 
 XdmfFrame describe_frame(hid_t group, const std::string& place) {

@@ -7,8 +7,7 @@
 
 namespace beadwork {
 
-void write_frame(hid_t group, const FrameStamp& stamp, const FrameRequest& request, const Domain& domain,
-                 h5::Storage storage);
+void write_frame(hid_t group, const FrameStamp& stamp, const FrameRequest& request, const Domain& domain);
 
 /// What the frame in `group` holds, its arrays standing under `place` in the file that the viewer opens.
 XdmfFrame describe_frame(hid_t group, const std::string& place);

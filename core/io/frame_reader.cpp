@@ -58,7 +58,7 @@ std::vector<FieldValues> read_fields(hid_t group, std::initializer_list<const ch
     FieldValues field;
     field.name = name;
     field.is_length = vector;
-    field.unit = h5::label_of(group, name).unit;
+    field.unit = h5::unit_of(group, name);
     if (vector)
       for (const Vec3& v : vectors(group, name)) field.values.push_back(v.norm());
     else
@@ -108,7 +108,8 @@ FrameReader::FrameReader(const std::filesystem::path& file, SymbolicLinks links)
   const h5::Silence silence;
   file_->handle = h5::open_file(file, links);
   std::error_code error;  // of a path that leads nowhere: then it could not be opened
-  file_->folder = (links == SymbolicLinks::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
+  file_->folder =
+      (links == SymbolicLinks::follow ? std::filesystem::weakly_canonical(file, error) : file).parent_path();
   if (!has(file_->handle.id(), "frames")) return;
   for (const std::string& name : h5::names_in(h5::open_group(file_->handle.id(), "frames").id())) {
     try {
@@ -153,17 +154,13 @@ Breaks FrameReader::breaks() const {
   const Handle group = h5::open_group(file_->handle.id(), "breaks");
   if (!has(group.id(), "time")) return log;
   log.time = h5::read_reals(group.id(), "time");
-  if (has(group.id(), "family")) log.family = words(group.id(), "family");
   if (has(group.id(), "mode")) log.mode = words(group.id(), "mode");
-  if (has(group.id(), "place")) log.place = vectors(group.id(), "place");
   if (has(group.id(), "energy")) log.energy = h5::read_reals(group.id(), "energy");
   // A run that was killed may have left columns of different lengths; the rows that are whole count.
   std::size_t rows = log.time.size();
   if (!log.mode.empty()) rows = std::min(rows, log.mode.size());
   log.time.resize(rows);
-  log.family.resize(rows);
   log.mode.resize(rows, "broken");
-  log.place.resize(std::min(rows, log.place.size()));
   log.energy.resize(std::min(rows, log.energy.size()));
   return log;
 }

@@ -53,8 +53,7 @@ struct Frame {
 /// Every break of the run, in the order in which they were booked.
 struct Breaks {
   std::vector<Real> time;
-  std::vector<std::string> family, mode;
-  std::vector<Vec3> place;
+  std::vector<std::string> mode;
   std::vector<Real> energy;
 };
 

@@ -10,7 +10,6 @@ namespace beadwork::h5 {
 
 namespace {
 
-constexpr hsize_t chunk_rows = 65536;        // of packed datasets: enough to compress well, small enough to read apart
 constexpr std::size_t growth = 1024 * 1024;  // of a file in memory
 
 herr_t innermost(unsigned depth, const H5E_error2_t* error, void* out) {
@@ -23,32 +22,21 @@ Handle space_of(std::size_t rows, int width) {
   return take(H5Screate_simple(width > 1 ? 2 : 1, extent, nullptr), H5Sclose, "describe a dataset");
 }
 
-// Only packed data need chunks; the rest lies in one piece, where any reader is fastest.
-Handle layout_of(std::size_t rows, int width, Storage storage) {
-  Handle layout = take(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a dataset");
-  if (storage.gzip <= 0 || rows == 0) return layout;
-  const hsize_t chunk[2] = {std::min<hsize_t>(rows, chunk_rows), static_cast<hsize_t>(width)};
-  check(H5Pset_chunk(layout.id(), width > 1 ? 2 : 1, chunk), "chunk a dataset");
-  check(H5Pset_shuffle(layout.id()), "shuffle a dataset");
-  check(H5Pset_deflate(layout.id(), static_cast<unsigned>(storage.gzip)), "pack a dataset");
-  return layout;
-}
-
 struct Types {
   hid_t file, memory;
 };
 
-Types types_of(Type type, Storage storage) {
+Types types_of(Type type) {
   if (type == Type::index) return {H5T_STD_I32LE, H5T_NATIVE_INT32};
   if (type == Type::state) return {H5T_STD_U8LE, H5T_NATIVE_UINT8};
-  return {storage.single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
+  return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE};
 }
 
+// In one piece and not packed, where any reader is fastest.   docs/decisions/run-h5.md
 Handle write_numbers(hid_t place, const std::string& name, Types types, const void* numbers, std::size_t rows,
-                     int width, const Label& label, Storage storage) {
+                     int width, const Label& label) {
   const Handle space = space_of(rows, width);
-  const Handle layout = layout_of(rows, width, storage);
-  Handle dataset = take(H5Dcreate2(place, name.c_str(), types.file, space.id(), H5P_DEFAULT, layout.id(), H5P_DEFAULT),
+  Handle dataset = take(H5Dcreate2(place, name.c_str(), types.file, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                         H5Dclose, "make dataset '" + name + "'");
   if (rows > 0)
     check(H5Dwrite(dataset.id(), types.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), "write dataset '" + name + "'");
@@ -203,26 +191,25 @@ void write_texts(hid_t place, const std::string& name, const std::vector<std::st
   write_packed(place, name, texts, space_of(texts.size(), 1));
 }
 
-Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label,
-                   Storage storage) {
-  return write_numbers(place, name, types_of(Type::real, storage), numbers.data(),
-                       numbers.size() / static_cast<std::size_t>(width), width, label, storage);
+Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label) {
+  return write_numbers(place, name, types_of(Type::real), numbers.data(),
+                       numbers.size() / static_cast<std::size_t>(width), width, label);
 }
 Handle write_indices(hid_t place, const std::string& name, std::span<const Index> numbers, int width,
-                     const Label& label, Storage storage) {
-  return write_numbers(place, name, types_of(Type::index, storage), numbers.data(),
-                       numbers.size() / static_cast<std::size_t>(width), width, label, storage);
+                     const Label& label) {
+  return write_numbers(place, name, types_of(Type::index), numbers.data(),
+                       numbers.size() / static_cast<std::size_t>(width), width, label);
 }
 Handle write_integers(hid_t place, const std::string& name, std::span<const std::int64_t> numbers, const Label& label) {
-  return write_numbers(place, name, {H5T_STD_I64LE, H5T_NATIVE_INT64}, numbers.data(), numbers.size(), 1, label, {});
+  return write_numbers(place, name, {H5T_STD_I64LE, H5T_NATIVE_INT64}, numbers.data(), numbers.size(), 1, label);
 }
 
-void write_column(hid_t place, const Column& column, Index rows, Storage storage) {
+void write_column(hid_t place, const Column& column, Index rows) {
   const Field& field = column.field();
-  const Types types = types_of(field.type, storage);
+  const Types types = types_of(field.type);
   const auto write = [&](const void* numbers) {
     return write_numbers(place, field.name, types, numbers, static_cast<std::size_t>(rows), components(field.type),
-                         {field.unit, field.doc}, storage);
+                         {field.unit, field.doc});
   };
   const Handle dataset = [&] {
     if (bytes(field.type) == column.stride() && components(field.type) == 1) return write(column.base());

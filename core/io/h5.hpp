@@ -42,11 +42,6 @@ class MemoryFile {
 
 Handle make_group(hid_t place, const std::string& name);
 
-/// How numbers lie in the file.
-struct Storage {
-  bool single = false;  ///< real numbers with 32 bits
-  int gzip = 0;         ///< level, 0: none
-};
 struct Label {
   std::string unit = "1";
   std::string long_name;
@@ -62,14 +57,13 @@ void write_texts(hid_t place, const std::string& name, const std::vector<std::st
 void set_texts_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 
 /// `rows` times `width` numbers, row by row; one-dimensional if the width is one.
-Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label,
-                   Storage storage = {});
+Handle write_reals(hid_t place, const std::string& name, std::span<const Real> numbers, int width, const Label& label);
 Handle write_indices(hid_t place, const std::string& name, std::span<const Index> numbers, int width,
-                     const Label& label, Storage storage = {});
+                     const Label& label);
 Handle write_integers(hid_t place, const std::string& name, std::span<const std::int64_t> numbers, const Label& label);
 
 /// A column under its own name, with unit and long_name, and with what is needed to make it again.
-void write_column(hid_t place, const Column& column, Index rows, Storage storage = {});
+void write_column(hid_t place, const Column& column, Index rows);
 // ---- Reading (h5_read.cpp). A file may be damaged, or made by somebody who means harm: class, shape and size of
 // whatever is read are compared with what the reader wants and with what the file can hold before a byte is taken. What
 // lies outside of the file (links, raw data in other files, virtual datasets) is never followed. MachineFailure says
@@ -94,8 +88,8 @@ struct Shape {
   std::size_t bytes = 0;  ///< of one number
 };
 Shape shape_of(hid_t place, const std::string& name);
-/// Unit and long_name of a dataset, empty where it has none.
-Label label_of(hid_t place, const std::string& name);
+/// The unit of a dataset, empty where it says none.
+std::string unit_of(hid_t place, const std::string& name);
 
 bool has_attribute(hid_t object, const std::string& name);
 std::string text_attribute(hid_t object, const std::string& name);
@@ -111,8 +105,6 @@ std::vector<std::string> read_texts(hid_t place, const std::string& name);
 std::vector<Real> read_reals(hid_t place, const std::string& name, int width = 1);
 std::vector<Index> read_indices(hid_t place, const std::string& name, int width = 1);
 std::vector<std::int64_t> read_integers(hid_t place, const std::string& name);
-/// The numbers of a dataset of any shape.
-std::vector<Real> read_all_reals(hid_t place, const std::string& name);
 
 /// The field as which a dataset was written.
 Field read_field(hid_t place, const std::string& name, On on);

@@ -254,12 +254,9 @@ Shape shape_of(hid_t place, const std::string& name) {
   return shape;
 }
 
-Label label_of(hid_t place, const std::string& name) {
+std::string unit_of(hid_t place, const std::string& name) {
   const Handle dataset = open_dataset(place, name);
-  const auto text = [&](const char* attribute) {
-    return has_attribute(dataset.id(), attribute) ? text_attribute(dataset.id(), attribute) : std::string();
-  };
-  return {text("unit"), text("long_name")};
+  return has_attribute(dataset.id(), "unit") ? text_attribute(dataset.id(), "unit") : "";
 }
 
 bool has_attribute(hid_t object, const std::string& name) { return H5Aexists(object, name.c_str()) > 0; }
@@ -319,10 +316,6 @@ std::vector<std::int64_t> read_integers(hid_t place, const std::string& name) {
   return read_numbers<std::int64_t>(place, name, 1, Kind::integer, H5T_NATIVE_INT64);
 }
 
-std::vector<Real> read_all_reals(hid_t place, const std::string& name) {
-  return numbers_of<Real>(open_to_read(place, name, Kind::real), H5T_NATIVE_DOUBLE);
-}
-
 Field read_field(hid_t place, const std::string& name, On on) {
   const Handle dataset = open_dataset(place, name);
   Field field{name,
@@ -332,7 +325,7 @@ Field read_field(hid_t place, const std::string& name, On on) {
               text_attribute(dataset.id(), "long_name"),
               text_attribute(dataset.id(), "line")};
   const std::string type = text_attribute(dataset.id(), "type");
-  for (const Type known : {Type::real, Type::vec3, Type::quat, Type::index, Type::state})
+  for (const Type known : {Type::real, Type::vec3, Type::quat, Type::index, Type::state, Type::sym3})
     if (type == type_name(known)) {
       field.type = known;
       return field;

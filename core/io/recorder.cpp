@@ -139,24 +139,23 @@ path free_name(const path& file, const std::string& ending) {
 
 }  // namespace
 
-Recorder::Recorder(RunFolder& folder, RunMeta meta, Options options)
+Recorder::Recorder(RunFolder& folder, RunMeta meta)
     : folder_(&folder),
       root_(folder.root()),
       record_(folder.record()),
       view_(folder.view()),
       frames_folder_(folder.frames()),
-      meta_(std::move(meta)),
-      options_(options) {}
+      meta_(std::move(meta)) {}
 
-Recorder Recorder::fresh(RunFolder& folder, RunMeta meta, Options options, const Domain& domain) {
-  Recorder recorder(folder, std::move(meta), options);
+Recorder Recorder::fresh(RunFolder& folder, RunMeta meta, const Domain& domain) {
+  Recorder recorder(folder, std::move(meta));
   recorder.write_master(domain);
   return recorder;
 }
 
-Recorder Recorder::resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain, std::int64_t step) {
+Recorder Recorder::resume(RunFolder& folder, RunMeta meta, const Domain& domain, std::int64_t step) {
   const h5::Silence silence;
-  Recorder recorder(folder, std::move(meta), options);
+  Recorder recorder(folder, std::move(meta));
   recorder.take_up(recorder.survey(step));
   recorder.write_master(domain);
   recorder.write_view();
@@ -274,7 +273,7 @@ void Recorder::write(const FrameStamp& stamp, const FrameRequest& request, const
   unite(latest_, request);
   latest_step_ = stamp.step;
   h5::MemoryFile out;
-  write_frame(out.id(), stamp, latest_, domain, {options_.single, options_.gzip});
+  write_frame(out.id(), stamp, latest_, domain);
   const std::string name = name_of(stamp.step);
   folder_->claim(frames_folder_ / (name + ".h5"));
   write_atomically(frames_folder_ / (name + ".h5"), {out.image()});

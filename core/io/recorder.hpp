@@ -45,22 +45,17 @@ struct FrameRequest {
   std::vector<const Column*> elements;  ///< besides id, position and radius, which are always written
   std::vector<FamilyRequest> bonds;     ///< families to write
   bool picture = false;                 ///< the report is to draw this frame
-  std::string view;                     ///< axis along which it looks: x, y, z; empty: it chooses
+  std::string view = {};                ///< axis along which it looks: x, y, z; empty: it chooses
 };
 
 class Recorder {
  public:
-  struct Options {
-    bool single = false;  ///< real numbers with 32 bits
-    int gzip = 0;         ///< level, 0: none
-  };
-
   /// Writes a run.h5 that has no frames yet.
-  static Recorder fresh(RunFolder& folder, RunMeta meta, Options options, const Domain& domain);
+  static Recorder fresh(RunFolder& folder, RunMeta meta, const Domain& domain);
   /// Takes up the frames up to and with `step` and drops later ones; breaks are those of the domain, as loaded.
   /// Everything is looked at before anything is changed. What is damaged is kept under another name (run.h5.damaged),
   /// and told in `notes`.
-  static Recorder resume(RunFolder& folder, RunMeta meta, Options options, const Domain& domain, std::int64_t step);
+  static Recorder resume(RunFolder& folder, RunMeta meta, const Domain& domain, std::int64_t step);
 
   /// Adds a frame. A second request at the same step adds its columns to the first one's.
   void write(const FrameStamp& stamp, const FrameRequest& request, const Domain& domain);
@@ -88,7 +83,7 @@ class Recorder {
     bool keep_record = false;  ///< run.h5 holds frames itself
   };
 
-  Recorder(RunFolder& folder, RunMeta meta, Options options);
+  Recorder(RunFolder& folder, RunMeta meta);
   Found survey(std::int64_t step);
   void look_into(const Path& file, const std::string& frames_in, const std::string& as, std::int64_t step,
                  Found& found);
@@ -105,7 +100,6 @@ class Recorder {
   RunFolder* folder_;
   Path root_, record_, view_, frames_folder_;
   RunMeta meta_;
-  Options options_;
   std::map<std::int64_t, Source> frames_;  ///< by step
   FrameRequest latest_;
   std::int64_t latest_step_ = -1;

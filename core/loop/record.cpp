@@ -64,15 +64,14 @@ RunMeta Record::meta() const {
 }
 
 void Record::open() {
-  const Recorder::Options options;
   std::vector<std::string> notes;
   if (!options_.resume) {
     folder_.take_over();
-    recorder_ = Recorder::fresh(folder_, meta(), options, state_.domain());
+    recorder_ = Recorder::fresh(folder_, meta(), state_.domain());
   } else {
     const auto cuts = cuts_to(curve_ends_, curves_to_cut());
     folder_.clear_leftovers();
-    recorder_ = Recorder::resume(folder_, meta(), options, state_.domain(),
+    recorder_ = Recorder::resume(folder_, meta(), state_.domain(),
                                  frame_now_.is_of(state_.moment) ? state_.moment.step : state_.moment.step - 1);
     notes = lost_rows(curve_ends_, cuts);
     cut(cuts);

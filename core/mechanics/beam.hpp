@@ -6,7 +6,7 @@
 //   t_i = e x n_i     the sine of the angle between the chord e and the section normal n_i = q_i e0              (B2)
 //   phi = 2 u.n1      u = Im(q2 q1*): 2 sin(twist/2) for a pure twist; u.n1 = u.n2, so the ends are equal        (B3)
 //
-// Valid while both section normals are within 90 degrees of the chord (see beam_cosine); a real bond breaks long before.
+// Valid while both section normals are within 90 degrees of the chord; a real bond breaks long before.
 
 #include <numbers>
 
@@ -128,12 +128,6 @@ BeamEnergy<T> beam_energy(const BeamRest<T>& rest, const Same<Vec<T>>& d, const 
   const T phi = T(2) * dot(relative(q1, q2).v, n1);
   return {T(0.5) * rest.axial * stretch * stretch, rest.bending * (dot(t1, t1) + dot(t1, t2) + dot(t2, t2)),
           T(0.5) * rest.torsion * phi * phi};
-}
-
-/// Cosine of the larger angle between the chord and a section normal. The law is not to be trusted below 0.
-template <class T>
-T beam_cosine(const BeamRest<T>& rest, const Same<Vec<T>>& d, const Quaternion<T>& q1, const Quaternion<T>& q2) {
-  return min(dot(d, rotate(q1, rest.axis)), dot(d, rotate(q2, rest.axis))) / sqrt(dot(d, d));
 }
 
 /// Internal forces at the ends of a beam. The bending moment varies linearly between them: its maximum is at

@@ -34,10 +34,6 @@ struct IndependentModes {
 
   template <class T>
   using History = Openings<T>;
-  template <class T>
-  static History<T> undamaged() {
-    return {T(0), T(0)};
-  }
 
   /// Whether the contact has failed: either mode at its u_p takes both. A mask.
   template <class T>
@@ -132,10 +128,6 @@ struct MixedMode {
     T integrity;  ///< smallest share of the stiffness so far, 1 - d
     T mix;        ///< B at the last accepted opening
   };
-  template <class T>
-  static History<T> undamaged() {
-    return {T(1), T(0)};
-  }
 
   /// w = sqrt(K_n <u_n>^2 + K_s u_s^2) and B = K_s u_s^2/w^2. While the openings stay in proportion, B is the share of
   /// the second mode in the work done, whatever the damage.
@@ -212,11 +204,6 @@ struct CohesiveHistory {
   /// part: what acts between them is part of that step, and goes at the end of it.
   T parted;
 };
-
-template <class Modes>
-CohesiveHistory<Modes, Real> undamaged_history() {
-  return {Modes::template undamaged<Real>(), 0};
-}
 
 template <class Modes, class T>
 struct CohesiveState {

@@ -12,7 +12,7 @@ inline Real sphere_mass(Real density, Real radius) {
   return density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
-/// [m^3]; Omega_i of the virial stress by default.
+/// [m^3]
 inline Real sphere_volume(Real radius) { return sphere_mass(1, radius); }
 
 /// Moment of inertia about any axis through the centre [kg m^2].

@@ -50,11 +50,6 @@ void ElasticNetwork::set(Index bond, Index first, Index second, const Matrix12& 
       block.lower[lower_at(r, c)] = static_cast<float>(stiffness(static_cast<Index>(r) + 3, static_cast<Index>(c) + 3));
 }
 
-void ElasticNetwork::add(Index first, Index second, const Matrix12& stiffness) {
-  resize(bonds() + 1);
-  set(bonds() - 1, first, second, stiffness);
-}
-
 Matrix12 ElasticNetwork::stiffness(Index bond) const {
   const Block& block = blocks_[at(bond)];
   Matrix12 k;
@@ -284,11 +279,6 @@ class BondsAlone {
 
 }  // namespace
 
-Real bond_lambda(const Matrix12& stiffness, const Mass12& inverse_mass) {
-  const Eigen::SelfAdjointEigenSolver<Matrix12> solver(weighted(stiffness, inverse_mass), Eigen::EigenvaluesOnly);
-  return std::max(Real(0), solver.eigenvalues()[11]);
-}
-
 HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility) {
   HighestMode best;
   if (network.bonds() == 0) return best;
@@ -323,10 +313,6 @@ HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility) 
 // step
 
 Real critical_step(Real lambda) { return lambda > 0 ? 2 / std::sqrt(lambda) : std::numeric_limits<Real>::infinity(); }
-
-Real damped_critical_step(Real lambda, Real zeta) {
-  return critical_step(lambda) * (std::sqrt(1 + zeta * zeta) - zeta);
-}
 
 StableStep stable_step(const ElasticNetwork& network, const Mobility& mobility, Real safety) {
   StableStep result;

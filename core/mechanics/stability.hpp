@@ -18,11 +18,9 @@ class ElasticNetwork {
  public:
   explicit ElasticNetwork(Index elements) : elements_(elements) {}
 
-  /// A bond with the stiffness (x1, theta1, x2, theta2) of beam_stiffness and its like. Bonds are numbered as
-  /// added.
-  void add(Index first, Index second, const Matrix12& stiffness);
   /// Room for so many bonds, each still to be `set`: by several threads where that helps.
   void resize(Index bonds);
+  /// A bond with the stiffness (x1, theta1, x2, theta2) of beam_stiffness and its like.
   void set(Index bond, Index first, Index second, const Matrix12& stiffness);
 
   Index elements() const { return elements_; }
@@ -36,8 +34,8 @@ class ElasticNetwork {
   /// For each element the sum of its bonds' grips: against displacement, against turning.
   std::vector<std::array<Real, 2>> total_grips() const;
 
-  /// y = K x, six numbers an element (displacement, rotation). Sums each element's bonds in the order of
-  /// adding, so that the bits do not depend on the number of threads.
+  /// y = K x, six numbers an element (displacement, rotation). Sums each element's bonds in the order of their
+  /// numbers, so that the bits do not depend on the number of threads.
   void multiply(std::span<const Real> x, std::span<Real> y) const;
 
  private:
@@ -49,7 +47,7 @@ class ElasticNetwork {
   };
 
   void link() const;
-  /// Calls visit(bond) for the bonds of an element, in the order of adding.
+  /// Calls visit(bond) for the bonds of an element, in the order of their numbers.
   template <class Visit>
   void visit_bonds(Index element, const Visit& visit) const;
 
@@ -101,14 +99,8 @@ HighestMode power_iteration(const ElasticNetwork& network, const Mobility& mobil
 /// stiffness.
 HighestMode bond_bound(const ElasticNetwork& network, const Mobility& mobility);
 
-/// The largest eigenvalue of one bond alone, with the given inverse masses of its twelve motions.
-Real bond_lambda(const Matrix12& stiffness, const Eigen::Matrix<Real, 12, 1>& inverse_mass);
-
 /// dt_c = 2/sqrt(lambda); infinite where nothing is stiff.
 Real critical_step(Real lambda);
-
-/// The limit with viscous damping of the share zeta of critical, its force lagging by half a step.
-Real damped_critical_step(Real lambda, Real zeta);
 
 struct StableStep {
   Real dt;            ///< [s]; infinite where nothing is stiff

@@ -79,11 +79,10 @@ const NeighbourList& Neighbours::of(const Crowd& crowd) {
 
 namespace {
 struct Tally {
-  Real contacts = 0, overlap = 0, largest = 0;
+  Real contacts = 0, overlap = 0;
   void operator+=(const Tally& o) {
     contacts += o.contacts;
     overlap += o.overlap;
-    largest = std::max(largest, o.largest);
   }
 };
 
@@ -97,10 +96,7 @@ Tally tally(const Crowd& crowd, const NeighbourList& list) {
         if (share <= 0) continue;
         t.contacts += 1;
         t.overlap += share;
-        t.largest = std::max(t.largest, share);
       }
-      for (std::size_t w = 0; w < crowd.walls.size(); ++w)
-        t.largest = std::max(t.largest, 1 - crowd.walls.view(w, a.x).distance / a.r);
     }
   });
 }
@@ -135,9 +131,9 @@ Real coordination(const Crowd& crowd, Neighbours& neighbours, const std::vector<
   return elements ? Real(contacts) / Real(elements) : 0;
 }
 
-OverlapFigures overlaps(const Crowd& crowd, Neighbours& neighbours) {
+Real mean_overlap(const Crowd& crowd, Neighbours& neighbours) {
   const Tally t = tally(crowd, neighbours.of(crowd));
-  return {t.largest, t.contacts > 0 ? t.overlap / t.contacts : 0};
+  return t.contacts > 0 ? t.overlap / t.contacts : 0;
 }
 
 }  // namespace beadwork::packing

@@ -74,10 +74,7 @@ std::vector<char> bulk_of(const Crowd&);
 Real coordination(const Crowd&, Neighbours&);
 Real coordination(const Crowd&, Neighbours&, const std::vector<char>& counts);
 
-struct OverlapFigures {
-  Real largest = 0;  ///< overlap / (R1 + R2); overlap / R at a wall
-  Real mean = 0;     ///< over the overlapping pairs
-};
-OverlapFigures overlaps(const Crowd&, Neighbours&);
+/// Overlap / (R1 + R2), the mean over the pairs that overlap.
+Real mean_overlap(const Crowd&, Neighbours&);
 
 }  // namespace beadwork::packing

@@ -59,7 +59,7 @@ std::vector<Real> ContactEquations::remaining() const {
 
 /// Each iteration is three passes, so that threads wait for each other three times only: the new direction is
 /// formed twice, once where the elements gather it and once where it is stored.
-int ContactEquations::solve(const Damping& damping, Real reduction, int most, const Pause& pause) {
+void ContactEquations::solve(const Damping& damping, Real reduction, int most, const Pause& pause) {
   const std::size_t n = contact_.size();
   std::vector<Real> lambda(n, 0), residual(n), scaled(n), direction(n, 0), image(n), inverse(n), extra(n);
   const auto sum = [n](const auto& term) {
@@ -78,8 +78,7 @@ int ContactEquations::solve(const Damping& damping, Real reduction, int most, co
   });
   const Real goal = rho * reduction * reduction;
   Real turn = 0;
-  int k = 0;
-  for (; k < most && rho > goal; ++k) {
+  for (int k = 0; k < most && rho > goal; ++k) {
     pause();
     scatter([&](std::size_t e) { return scaled[e] + turn * direction[e]; });
     const Real curvature = sum([&](std::size_t e) {
@@ -98,7 +97,6 @@ int ContactEquations::solve(const Damping& damping, Real reduction, int most, co
     turn = rho / before;
   }
   scatter([&](std::size_t e) { return lambda[e]; });
-  return k;
 }
 
 }  // namespace beadwork::packing

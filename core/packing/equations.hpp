@@ -36,8 +36,8 @@ class ContactEquations {
   ContactEquations(std::size_t moving, const std::vector<Contact>&, const std::vector<Real>& compliance);
 
   /// The change with (A A^T + damping) lambda = -gap, change = A^T lambda, by conjugate gradients down to
-  /// `reduction` of the first residual. Returns the number of iterations.
-  int solve(const Damping&, Real reduction, int most, const Pause& pause = never_paused);
+  /// `reduction` of the first residual.
+  void solve(const Damping&, Real reduction, int most, const Pause& pause = never_paused);
 
   const std::vector<Change>& change() const { return change_; }
   /// Gaps that the linear equations leave.

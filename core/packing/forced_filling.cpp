@@ -134,7 +134,7 @@ void reach_coordination(Crowd& crowd, Real asked, bool bulk, const Tell& tell) {
   for (int round = 0; round < most_rounds; ++round) {
     settle(crowd, neighbours, round == 0 ? 600 : 300, 0.03);
     Z = coordination(crowd, neighbours, bulk);
-    overlap = overlaps(crowd, neighbours).mean;
+    overlap = mean_overlap(crowd, neighbours);
     tell((std::ostringstream() << "coordination " << Z << " of " << asked).str());
     if (Z >= asked && (Z <= asked + band || overlap < hardly)) return;
     if (overlap > most_overlap) break;

@@ -124,27 +124,25 @@ std::vector<Key> closable(const std::vector<Contact>& contacts, const std::vecto
 
 }  // namespace
 
-Projected project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap,
-                  const std::function<void(Real)>& told) {
-  Projected result;
+void project(Crowd& crowd, Neighbours& neighbours, const RadiusBounds& bounds, Real overlap,
+             const std::function<void(Real)>& told) {
   std::vector<Key> known = overlapping(crowd, neighbours.of(crowd)).keys;
   std::sort(known.begin(), known.end());
-  scale_radii(crowd, 1 - overlaps(crowd, neighbours).mean);  // what all must give is not for some to give
+  scale_radii(crowd, 1 - mean_overlap(crowd, neighbours));  // what all must give is not for some to give
   Allowance allowance(crowd, bounds);
-  for (;; ++result.rounds) {
+  for (int rounds = 0;; ++rounds) {
     crowd.pause();
     Found found = overlapping(crowd, neighbours.of(crowd));
-    result.largest = found.largest;
     told(found.largest);
-    if (found.largest <= overlap || result.rounds == most_rounds) return result;
+    if (found.largest <= overlap || rounds == most_rounds) return;
     std::sort(found.keys.begin(), found.keys.end());
     std::vector<Key> keys;
     std::set_union(known.begin(), known.end(), found.keys.begin(), found.keys.end(), std::back_inserter(keys));
     std::vector<Contact> contacts(keys.size());
     for_each(keys.size(), [&](std::size_t e) { contacts[e] = contact_of(crowd, keys[e]); });
     ContactEquations equations(crowd.moving, contacts, allowance.compliance());
-    result.iterations += equations.solve(damping, 1e-3, 400, crowd.pause);
-    const bool gently = result.rounds < gentle_rounds;
+    equations.solve(damping, 1e-3, 400, crowd.pause);
+    const bool gently = rounds < gentle_rounds;
     add(equations.change(), gently ? gentle_share : 1, crowd);
     known = gently ? std::move(keys) : closable(contacts, equations.remaining());
     allowance.apply(crowd);

@@ -55,7 +55,7 @@ void decompress(Crowd& crowd, Neighbours& neighbours, const Tell& tell) {
   constexpr Real small = 2e-5;
   for (int round = 0; round < 15; ++round) {
     settle(crowd, neighbours, 500, 0.02);
-    const Real mean = overlaps(crowd, neighbours).mean;
+    const Real mean = mean_overlap(crowd, neighbours);
     tell_of_overlap(tell, "mean", mean);
     if (mean < small) return;
     scale_radii(crowd, 1 - 1.5 * mean);

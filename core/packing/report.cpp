@@ -101,14 +101,6 @@ std::array<Real, 3> fabric_of(const Crowd& crowd, const std::vector<Pair>& conta
   return {values[0], values[1], values[2]};
 }
 
-Real wall_contacts(const Crowd& crowd, Real tolerance) {
-  std::size_t contacts = 0;
-  for (std::size_t i = 0; i < crowd.moving; ++i)
-    for (std::size_t w = 0; w < crowd.walls.size(); ++w)
-      contacts += crowd.walls.view(w, crowd.ball[i].x).distance <= (1 + tolerance) * crowd.ball[i].r;
-  return Real(contacts) / Real(crowd.moving);
-}
-
 void report_radii(const Packing& packing, PackingReport& r) {
   const auto& radius = packing.radius;
   r.mean_radius = std::accumulate(radius.begin(), radius.end(), Real(0)) / Real(radius.size());
@@ -143,13 +135,6 @@ void report_overlap(const Crowd& crowd, const std::vector<Pair>& near, PackingRe
 }
 
 }  // namespace
-
-std::vector<char> in_bulk(const Region& region, std::span<const Vec3> position, Real margin) {
-  const Walls walls(region);
-  std::vector<char> bulk(position.size());
-  for (std::size_t i = 0; i < position.size(); ++i) bulk[i] = walls.distance(position[i]) > margin;
-  return bulk;
-}
 
 Real density_in_bulk(const Packing& packing, Real margin) {
   if (packing.radius.empty() || margin >= inradius(packing.region)) return 0;
@@ -205,7 +190,6 @@ PackingReport report(const Packing& packing, Real tolerance) {
   r.touching = coordination_of(crowd, touching, loose, bulk);
   r.near = coordination_of(crowd, near, loose_near, bulk);
   r.rattlers = Real(std::accumulate(loose.begin(), loose.end(), 0)) / Real(r.count);
-  r.wall_contacts = wall_contacts(crowd, tolerance);
   r.bulk_count = std::size_t(std::accumulate(bulk.begin(), bulk.end(), 0));
   r.fabric = fabric_of(crowd, near, [](std::size_t) { return true; });
   r.fabric_bulk = fabric_of(crowd, near, [&](std::size_t i) { return bulk[i] != 0; });

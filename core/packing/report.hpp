@@ -26,7 +26,6 @@ struct PackingReport {
   Coordination near;      ///< gap <= tolerance (R1 + R2): what bonds are made of
   Real tolerance = 0;
   Real rattlers = 0;             ///< share of the elements
-  Real wall_contacts = 0;        ///< contacts with walls per element
   Real max_overlap = 0;          ///< overlap / (R1 + R2), over all pairs and, over R, all walls
   Real mean_overlap = 0;         ///< over the pairs that overlap
   std::array<Real, 3> fabric{};  ///< eigenvalues of <n n> over the near contacts, rising; their sum is 1
@@ -44,9 +43,6 @@ struct PackingReport {
 
 /// Figures of a packing; `tolerance` is the gap by which bonds are to be made.
 PackingReport report(const Packing&, Real tolerance = 1e-3);
-
-/// Which elements are farther than `margin` from every wall of the region.
-std::vector<char> in_bulk(const Region&, std::span<const Vec3> position, Real margin);
 
 /// Share of the volume farther than `margin` from walls and obstacles that lies in elements; 0 if there is no
 /// such volume. Counted on evenly spread points: good to about .001.

@@ -75,13 +75,12 @@ class Fire {
 
 }  // namespace
 
-Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residual, Real pressure) {
+void settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residual, Real pressure) {
   std::vector<Vec3> velocity(crowd.moving, zero<Vec3>());
   std::vector<Vec3> force(crowd.moving);
   Fire fire;
-  Settled settled;
   const NeighbourList* list = &neighbours.of(crowd);
-  while (settled.steps < max_steps) {
+  for (int step = 0; step < max_steps; ++step) {
     crowd.pause();
     const Sums sums = sum_in_blocks<Sums>(crowd.moving, [&](std::size_t begin, std::size_t end, Sums& s) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -91,10 +90,8 @@ Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residua
         s.speed2 += velocity[i].squaredNorm();
       }
     });
-    ++settled.steps;
-    settled.pressure = sums.load / Real(crowd.moving);
-    settled.residual = sums.load > 0 ? std::sqrt(sums.force2 / Real(crowd.moving)) / (sums.load / sums.contacts) : 0;
-    if (settled.residual <= residual || settled.pressure <= pressure) break;
+    const Real left = sums.load > 0 ? std::sqrt(sums.force2 / Real(crowd.moving)) / (sums.load / sums.contacts) : 0;
+    if (left <= residual || sums.load / Real(crowd.moving) <= pressure) return;
     fire.judge(sums);
     const Largest worst = sum_in_blocks<Largest>(crowd.moving, [&](std::size_t begin, std::size_t end, Largest& w) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -104,7 +101,6 @@ Settled settle(Crowd& crowd, Neighbours& neighbours, int max_steps, Real residua
     });
     list = &neighbours.after(crowd, worst.value);
   }
-  return settled;
 }
 
 }  // namespace beadwork::packing

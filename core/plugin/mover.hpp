@@ -64,8 +64,7 @@ class Mover : public Plugin {
   virtual Real shadow_energy() const { return 0; }
   /// What is probably wrong where the balance has an excess of energy that no work accounts for.
   virtual std::string suspect() const { return "a law's force is probably not the slope of its stored energy"; }
-  /// For `plan`: the time step [s] and what limits it.
-  virtual Real time_step() const = 0;
+  /// For `plan`: what limits the time step.
   virtual std::string limited_by() const { return ""; }
 };
 

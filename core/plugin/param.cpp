@@ -168,7 +168,6 @@ ParamBase::ParamBase(Plugin* owner, ParamInfo info) : info_(std::move(info)) { o
 void ParamBase::read(const Attribute& attribute, const Scope& scope, Complaints& complaints) {
   at_ = attribute.value_at;
   written_ = attribute.value;
-  attribute.used = true;
   in_deck_ = true;
   given_ = take(attribute, scope, complaints);
 }

@@ -2,9 +2,9 @@
 // What the stresses of elements share: which bonds count, and the volume of an element.
 
 #include <algorithm>
-#include <numbers>
 
 #include "core/domain/vocabulary.hpp"
+#include "core/mechanics/sphere.hpp"
 #include "core/mechanics/virial.hpp"
 #include "core/plugin/kinds.hpp"
 
@@ -27,7 +27,7 @@ class OverBonds : public Derived {
 
  protected:
   /// Omega of Eq (6): that of the sphere.
-  Real volume(Index row) const { return 4 * std::numbers::pi / 3 * radius[row] * radius[row] * radius[row]; }
+  Real volume(Index row) const { return sphere_volume(radius[row]); }
 };
 
 }  // namespace beadwork

@@ -91,7 +91,6 @@ class Verlet final : public Mover {
       complaints.error(
           at(), fmt::format("no bonds act in stage '{}', so nothing limits its time step: give 'time-step'", stage));
   }
-  Real time_step() const override { return step_.time_step; }
   std::string limited_by() const override { return step_.by; }
 
   void prepare(Workings& w, bool resumed) override {

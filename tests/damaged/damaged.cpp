@@ -38,7 +38,7 @@ void make(const fs::path& root, bool finished) {
   Domain domain;
   declare_bar(domain);
   fill_bar(domain, elements);
-  Recorder recorder = Recorder::fresh(folder, about, {}, domain);
+  Recorder recorder = Recorder::fresh(folder, about, domain);
   const BondTable& resin = *domain.families()[0];
   const FrameRequest request{
       {&domain.elements().column("velocity")}, {{&resin, "cohesive-beam", {&resin.rows().column("damage")}}}, false};
@@ -98,7 +98,7 @@ void go_on(const fs::path& root, const Domain& domain) {
   std::erase_if(curves, [](const fs::path& file) { return file.extension() != ".csv"; });
   const auto cuts = cuts_to({{"force", {100, "step [1],time [s],force [N]"}}}, curves);
   folder.clear_leftovers();
-  Recorder recorder = Recorder::resume(folder, about, {}, domain, 100);
+  Recorder recorder = Recorder::resume(folder, about, domain, 100);
   cut(cuts);
   std::string reason;
   recorder.consolidate(domain, reason);

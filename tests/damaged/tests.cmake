@@ -1,6 +1,4 @@
 # Damaged runs, read by what the program reads them with, compiled once more with the sanitizers of addresses and undefined behaviour.
-find_package(HDF5 REQUIRED COMPONENTS C)
-find_package(PNG REQUIRED)
 file(GLOB damaged_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/core/io/*.cpp ${PROJECT_SOURCE_DIR}/core/domain/*.cpp ${PROJECT_SOURCE_DIR}/workbench/report/*.cpp)
 add_executable(test_damaged ${CMAKE_CURRENT_LIST_DIR}/damaged.cpp ${damaged_sources})
 target_include_directories(test_damaged PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)

@@ -28,6 +28,11 @@ const Both both{opens, slides};
 const MixedMode mixed{opens, slides, {false, UnitPower(2.284)}};
 constexpr Real area = 0.5;
 
+template <class Modes>
+CohesiveHistory<Modes, Real> undamaged_history() {
+  return {{Modes::coupled ? 1. : 0., 0}, 0};
+}
+
 /// Two elements whose contact has a normal of its own.
 struct Contact {
   Pair p;
@@ -199,7 +204,8 @@ TEST(cohesive_faces, the_stiffness_is_the_derivative_of_the_force_of_a_closed_co
       return generalised(act(modes, faces(c, p), undamaged_history<Modes>()).wrench);
     };
     const Matrix12 expected = -jacobian(forces, c.p);
-    EXPECT_LT((shared_stiffness(modes, faces(c, c.p), area, Openings<Real>{1, 1}) - expected).norm(), 1e-8 * expected.norm());
+    EXPECT_LT((shared_stiffness(modes, faces(c, c.p), area, Openings<Real>{1, 1}) - expected).norm(),
+              1e-8 * expected.norm());
     EXPECT_GT((expected.block<3, 3>(3, 3).norm()), 1);  // it resists turning
   };
   check(normal);

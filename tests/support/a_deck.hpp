@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,7 +53,13 @@ class ADeck : public ::testing::Test {
     return fresh.text().substr(0, fresh.text().find('\n'));
   }
 
-  const Attribute& attribute(const std::string& name) { return *deck->root->child("a")->find(name); }
+  /// The first child with this tag.
+  static const Node& child(const Node& of, const std::string& tag) {
+    for (const auto& each : of.children)
+      if (each->tag == tag) return *each;
+    throw std::logic_error("there is no <" + tag + ">");
+  }
+  const Attribute& attribute(const std::string& name) { return *child(*deck->root, "a").find(name); }
 
   std::filesystem::path folder;
   Complaints complaints;

@@ -1,10 +1,13 @@
 #pragma once
 // Random states of two bonded elements, and derivatives by central differences.
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 
 #include "core/base/random.hpp"
 #include "core/mechanics/rotation.hpp"
+#include "core/mechanics/stability.hpp"
 
 namespace beadwork::test {
 
@@ -66,6 +69,19 @@ Vector12 generalised(const W& w) {
   Vector12 f;
   f << -w.force, w.torque1, w.force, w.torque2;
   return f;
+}
+
+inline void add_bond(ElasticNetwork& network, Index first, Index second, const Matrix12& stiffness) {
+  network.resize(network.bonds() + 1);
+  network.set(network.bonds() - 1, first, second, stiffness);
+}
+
+/// The largest eigenvalue of one bond alone, with the given inverse masses of its twelve motions.
+inline Real bond_lambda(const Matrix12& stiffness, const Vector12& inverse_mass) {
+  const Vector12 root = inverse_mass.cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Matrix12> solver(root.asDiagonal() * stiffness * root.asDiagonal(),
+                                                       Eigen::EigenvaluesOnly);
+  return std::max(Real(0), solver.eigenvalues()[11]);
 }
 
 /// The full matrix of a rotation in the twelve coordinates.

@@ -51,11 +51,22 @@ class Parts : private Workings {
     state.mover().prepare(*this, false);
     balance.begin_stage();
   }
+  /// The same where a checkpoint has been loaded.
+  void resume_stage() {
+    let_laws_act(state);
+    fresh.begin_stage();
+    contacts.resume_stage();
+    begin_constraints(state);
+    breaking.begin_stage();
+    state.mover().prepare(*this, true);
+  }
   void step() {
     fresh.begin_step();
     contacts.follow();
     state.mover().step(*this);
   }
+
+  const Catalogue& catalogue() const { return catalogue_; }
 
   std::vector<std::string> said, warned;
   RunOptions options = listened_to();

@@ -137,6 +137,25 @@ TEST(Checkpoint, numbers_that_are_no_numbers_keep_their_bits_too) {
     EXPECT_EQ(std::bit_cast<std::uint64_t>(got[i]), std::bit_cast<std::uint64_t>(radius[i]));
 }
 
+TEST(Checkpoint, a_kept_column_of_any_type_comes_back) {
+  const Scratch scratch;
+  const auto declare = [](Domain& domain) {
+    for (const Type type : {Type::real, Type::vec3, Type::quat, Type::index, Type::state, Type::sym3})
+      domain.elements().add({type_name(type), On::elements, type, "1", "", ""}).keep();
+  };
+  Domain domain, back;
+  declare(domain);
+  domain.add_elements(3);
+  domain.elements().column(type_name(Type::sym3)).view<Sym3>().set(1, {1, 2, 3, 4, 5, 6});
+  domain.elements().column(type_name(Type::vec3)).view<Vec3>().set(2, Vec3(7, 8, 9));
+  domain.elements().column(type_name(Type::state)).view<State>()[1] = State::broken;
+  domain.elements().column(type_name(Type::index)).view<Index>()[0] = -3;
+  save_checkpoint(scratch / "c.h5", domain, some_meta());
+  declare(back);
+  load_checkpoint(scratch / "c.h5", back);
+  expect_same_kept_columns(domain.elements(), back.elements());
+}
+
 TEST(Checkpoint, what_is_known_of_the_run_comes_back) {
   const Scratch scratch;
   CheckpointMeta meta = some_meta();

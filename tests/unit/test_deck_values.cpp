@@ -17,7 +17,7 @@ TEST_F(ADeck, works_out_parameters_that_use_earlier_and_later_ones) {
       "q=\"${half + 1 um}\"/></scene>");
   EXPECT_DOUBLE_EQ(*read_quantity(attribute("q"), "m", deck->scope, complaints), 15e-6);
   deck->scope.complain_about_unused(*deck->root, complaints);
-  EXPECT_TRUE(complaints.empty()) << complaints.text();
+  EXPECT_EQ(complaints.text(), "");
   EXPECT_EQ(deck->root->children.size(), 1u);
 }
 
@@ -96,7 +96,7 @@ TEST_F(ADeck, cannot_be_blown_up_by_parameters) {
   }
   read(text + "<a t=\"${p60}\" v=\"${p60}\"/></scene>");
   EXPECT_FALSE(read_text(attribute("t"), deck->scope, complaints));
-  EXPECT_FALSE(read_quantities(attribute("v"), "1", deck->scope, complaints));
+  EXPECT_FALSE(read_vector(attribute("v"), "1", deck->scope, complaints));
   for (int i = 1; i <= 5000; ++i)
     chain += "<parameter name=\"p" + std::to_string(i) + "\" value=\"${1+p" + std::to_string(i - 1) + "}\"/>";
   read(chain + "<a q=\"${p5000}\"/></scene>");
@@ -123,11 +123,11 @@ TEST_F(ADeck, with_a_value_of_megabytes_is_refused_in_few_words) {
   std::string numbers;
   while (numbers.size() < 5'000'000) numbers += "1 ";
   read("<scene>\n<a q=\"" + numbers + "mm\" w=\"" + numbers + "\" n=\"" + numbers.substr(0, 900'000) + "\"/></scene>");
-  EXPECT_FALSE(read_quantities(attribute("q"), "m", deck->scope, complaints));
+  EXPECT_FALSE(read_vector(attribute("q"), "m", deck->scope, complaints));
   EXPECT_FALSE(read_words(attribute("w"), deck->scope, complaints));
-  EXPECT_FALSE(read_quantities(attribute("n"), "1", deck->scope, complaints));
+  EXPECT_FALSE(read_vector(attribute("n"), "1", deck->scope, complaints));
   EXPECT_FALSE(read_words(attribute("n"), deck->scope, complaints));
-  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:7: error: 'q' wants values, each a length"));
+  EXPECT_THAT(complaints.text(), HasSubstr("deck.xml:2:7: error: 'q' wants three values such as"));
   EXPECT_THAT(complaints.text(), HasSubstr("a value of more than 1000000 characters: data belong into a file"));
   EXPECT_THAT(complaints.text(), HasSubstr("these are more than 10000 values"));
   EXPECT_EQ(complaints.errors(), 4) << complaints.text();
@@ -177,8 +177,7 @@ TEST_F(AValue, is_a_number_with_its_unit) {
   EXPECT_EQ(quantity("0.5 N/mm", "J/m2"), 500);
   EXPECT_EQ(quantity("2 1/s", "Hz"), 2);
   EXPECT_EQ(quantity("3 t/mm^3", "kg/m^3"), 3e12);
-  EXPECT_TRUE(complaints.empty()) << complaints.text();
-  EXPECT_TRUE(attribute("value").used);
+  EXPECT_EQ(complaints.text(), "");
 }
 
 TEST_F(AValue, may_be_an_expression) {
@@ -242,7 +241,7 @@ TEST_F(AValue, that_is_zero_needs_no_unit) {
   EXPECT_EQ(quantity("0", "m"), 0);
   EXPECT_EQ(quantity("${0*n}", "Pa"), 0);
   EXPECT_EQ(quantity("0", "degree"), 0);
-  EXPECT_TRUE(complaints.empty()) << complaints.text();
+  EXPECT_EQ(complaints.text(), "");
   EXPECT_FALSE(quantity("0 s", "m"));
   EXPECT_EQ(said(), "11: 'value' wants a length such as \"1 mm\", got \"0 s\" which is s");
 }
@@ -270,7 +269,7 @@ TEST_F(AValue, may_be_a_vector_whose_unit_stands_once) {
   EXPECT_FALSE(vector("0 1 ${side}", "m"));
   EXPECT_THAT(said(), HasSubstr(": 1 has no unit"));
   EXPECT_EQ(vector("${point}", "m"), Vec3(1e-3, 2e-3, 3e-3));
-  EXPECT_TRUE(complaints.empty()) << complaints.text();
+  EXPECT_EQ(complaints.text(), "");
   EXPECT_FALSE(vector("1 2 mm", "m"));
   EXPECT_EQ(said(), "11: 'value' wants three values such as \"1 0 0 m\", got \"1 2 mm\" which are 2 values");
   EXPECT_FALSE(vector("1 mm 2 3", "m"));

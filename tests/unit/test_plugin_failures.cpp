@@ -127,7 +127,6 @@ class WiredMove final : public Wired<Mover> {
     w.evaluate(true);
   }
   void complete(Workings&) override { wire("complete"); }
-  Real time_step() const override { return 1; }
 };
 
 class WiredFail final : public Wired<Failure> {
@@ -240,7 +239,8 @@ TEST(PluginFailures, name_plugin_and_place_whatever_throws_what) {
                                      "fail constructor",
                                      "fail check",
                                      "fail choose",
-                                     "fail begin", "fail judge",
+                                     "fail begin",
+                                     "fail judge",
                                      "fail mode",
                                      "fail energy",
                                      "derive constructor",

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/io/dataset.hpp"
 #include "core/io/frame_reader.hpp"
 #include "core/io/recorder.hpp"
 #include "tests/support/bonded_bar.hpp"
+#include "tests/support/dataset.hpp"
 #include "tests/support/scratch.hpp"
 
 using namespace beadwork;
@@ -39,10 +39,9 @@ struct Recording {
   Domain domain;
   Recorder recorder;
 
-  explicit Recording(const fs::path& root, Index count = 200, Recorder::Options options = {})
+  explicit Recording(const fs::path& root, Index count = 200)
       : folder(RunFolder::fresh(root, true)),
-        recorder(
-            (declare_bar(domain), fill_bar(domain, count), Recorder::fresh(folder, about_the_run, options, domain))) {}
+        recorder((declare_bar(domain), fill_bar(domain, count), Recorder::fresh(folder, about_the_run, domain))) {}
 
   FrameRequest request() {
     const BondTable& resin = *domain.families()[0];
@@ -54,7 +53,7 @@ struct Recording {
   void go_on_from(std::int64_t step) {
     auto& breaks = domain.breaks().breaks;
     std::erase_if(breaks, [&](const Break& b) { return b.step > step; });
-    recorder = Recorder::resume(folder, about_the_run, {}, domain, step);
+    recorder = Recorder::resume(folder, about_the_run, domain, step);
   }
 };
 
@@ -114,8 +113,8 @@ TEST(Recorder, a_frame_holds_the_columns_that_were_asked_for_with_their_units) {
       EXPECT_EQ(velocity.numbers[static_cast<std::size_t>(3 * row + c)], expected_velocity.at(row, c));
       EXPECT_EQ(stretched.numbers[static_cast<std::size_t>(3 * row + c)], expected_stretch.at(row, c));
     }
-  EXPECT_THROW(read_dataset(run.folder.record(), "frames/000000000300/elements/force"), MachineFailure);
-  EXPECT_THROW(read_dataset(run.folder.record(), "frames/000000000300/bonds/interface/id"), MachineFailure);
+  EXPECT_THROW(read_dataset(run.folder.record(), "frames/000000000300/elements/force"), std::runtime_error);
+  EXPECT_THROW(read_dataset(run.folder.record(), "frames/000000000300/bonds/interface/id"), std::runtime_error);
 }
 
 TEST(Recorder, the_report_reads_what_was_recorded) {
@@ -138,7 +137,6 @@ TEST(Recorder, the_report_reads_what_was_recorded) {
   EXPECT_EQ(frame.radius[9], 0.5e-3 + 9e-5);
   EXPECT_EQ(reader.sets().at("left").size(), 20u);
   EXPECT_EQ(reader.breaks().time.size(), 4u);
-  EXPECT_EQ(reader.breaks().family[0], "resin");
   EXPECT_EQ(reader.breaks().mode[0], "shear");
 }
 
@@ -230,37 +228,10 @@ TEST(Recorder, the_log_of_breaks_is_up_to_date_without_a_frame) {
   run.frame(0);
   break_some(run.domain, 1, 40, 90);
   run.recorder.write_breaks(run.domain);
-  EXPECT_THAT(record::FrameReader(run.folder.record()).breaks().family,
-              ElementsAre("interface", "interface", "interface"));
+  EXPECT_EQ(record::FrameReader(run.folder.record()).breaks().time.size(), 3u);
+  EXPECT_THAT(read_dataset(run.folder.record(), "breaks/family").numbers, ElementsAre(1, 1, 1));  // the interface
   EXPECT_EQ(read_dataset(run.folder.record(), "breaks/energy").unit, "J");
   EXPECT_THAT(read_dataset(run.folder.record(), "breaks/place").extent, ElementsAre(3u, 3u));
-}
-
-TEST(Recorder, single_precision_takes_half_the_room_and_rounds) {
-  const Scratch scratch;
-  Recording whole(scratch / "double", 2000), single(scratch / "single", 2000, {true, 0});
-  whole.frame(0);
-  single.frame(0);
-  const std::string name = "frames/000000000000/elements/velocity";
-  const auto a = read_dataset(whole.folder.record(), name), b = read_dataset(single.folder.record(), name);
-  for (std::size_t i = 0; i < a.numbers.size(); ++i)
-    EXPECT_EQ(b.numbers[i], static_cast<Real>(static_cast<float>(a.numbers[i])));
-  const std::string file = "frames/000000000000.h5";
-  EXPECT_LT(fs::file_size(folder_of(single, file)), 0.7 * static_cast<Real>(fs::file_size(folder_of(whole, file))));
-}
-
-TEST(Recorder, packed_numbers_are_the_same_numbers) {
-  const Scratch scratch;
-  Recording plain(scratch / "plain", 2000), packed(scratch / "packed", 2000, {false, 4});
-  plain.frame(0);
-  packed.frame(0);
-  for (const char* name : {"elements/position", "bonds/resin/ends", "bonds/resin/state"}) {
-    const std::string full = std::string("frames/000000000000/") + name;
-    EXPECT_EQ(read_dataset(plain.folder.record(), full).numbers, read_dataset(packed.folder.record(), full).numbers)
-        << name;
-  }
-  const std::string file = "frames/000000000000.h5";
-  EXPECT_LT(fs::file_size(folder_of(packed, file)), fs::file_size(folder_of(plain, file)));
 }
 
 TEST(Recorder, the_view_for_paraview_names_datasets_that_are_there_with_their_extents) {

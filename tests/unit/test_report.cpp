@@ -57,7 +57,7 @@ void record_frames(const fs::path& folder, Domain& domain) {
   RunFolder run = RunFolder::fresh(folder, false);
   RunMeta meta;
   meta.name = "in the record";
-  Recorder recorder = Recorder::fresh(run, meta, {}, domain);
+  Recorder recorder = Recorder::fresh(run, meta, domain);
   BondTable& interface = *domain.find_family("interface");
   FrameRequest request;
   request.bonds.push_back({&interface, "cohesive-contact", {}});
@@ -81,7 +81,7 @@ class Report : public testing::Test {
     make_specimen(domain);
     record_frames(folder, domain);
     write(folder / "summary.json",
-          R"({"scene": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
+          R"({"name": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
       "elements": 12, "bonds": {"interface": 6}, "steps": 100, "time_step": 1e-5, "wall_seconds": 83,
       "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
       "utilisation": {"fail.bond-stress": {"of": "interface", "mode": "axial-bending", "largest": 0.8731, "step": 80, "time": 8e-4,
@@ -95,9 +95,7 @@ class Report : public testing::Test {
     write(folder / "curves/force.csv",
           "step [1],time [s],displacement [m],force [N],reference Eq (10) [N]\n"
           "0,0,0,0,0\n50,5e-4,1e-4,30,31\n100,1e-3,2e-4,60,59\n");
-    write(folder / "curves/force.json",
-          R"({"title": "Load", "x": "displacement", "y": ["force"], "x_label": "opening",
-      "x_scale": 1000, "x_unit": "mm"})");
+    write(folder / "curves/force.json", R"({"title": "Load", "x": "displacement", "y": ["force"]})");
     write(folder / "curves/energy.csv",
           "step [1],time [s],external work [J],elastic [J],kinetic [J]\n0,0,0,0,0\n100,1e-3,2,1.5,0.48\n");
   }
@@ -145,18 +143,18 @@ TEST_F(Report, draws_the_curve_with_its_labels_units_and_reference) {
   make_run();
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("<figcaption>Load</figcaption>"));
-  EXPECT_THAT(html, HasSubstr(">opening [mm]</text>"));
+  EXPECT_THAT(html, HasSubstr(">displacement [µm]</text>"));
   EXPECT_THAT(html, HasSubstr(">force [N]</text>"));
   EXPECT_THAT(html, HasSubstr("Eq (10)"));
   EXPECT_THAT(html, HasSubstr("class=\"line s1 dashed\""));
-  EXPECT_THAT(html, HasSubstr("opening 0.2 mm  ·  force 60"));  // under the pointer
+  EXPECT_THAT(html, HasSubstr("displacement 200 µm  ·  force 60"));  // under the pointer
 }
 
 TEST_F(Report, pictures_say_at_which_loading_and_in_which_state_the_specimen_is) {
   make_run();
   const std::string html = page();
   EXPECT_THAT(html, HasSubstr("<img src=\"data:image/png;base64,iVBORw0KGgo"));
-  EXPECT_THAT(html, HasSubstr("<b>opening 0.2 mm</b>"));
+  EXPECT_THAT(html, HasSubstr("<b>displacement 200 µm</b>"));
   EXPECT_THAT(html, HasSubstr("4 elastic"));
   EXPECT_THAT(html, HasSubstr("1 softening"));
   EXPECT_THAT(html, HasSubstr("1 broken"));
@@ -220,7 +218,7 @@ TEST_F(Report, recorded_fields_are_drawn_with_their_colour_bar) {
   for (Index b = 0; b < 6; ++b) pull.view<Real>()[b] = b - 2;
   for (Index i = 0; i < 12; ++i) heat.view<Real>()[i] = i == 3 ? std::nan("") : 300;
   RunFolder run = RunFolder::fresh(folder, false);
-  Recorder recorder = Recorder::fresh(run, {}, {}, domain);
+  Recorder recorder = Recorder::fresh(run, {}, domain);
   FrameRequest request;
   request.elements = {&heat};
   request.bonds.push_back({&interface, "spring", {&pull}});
@@ -459,12 +457,6 @@ TEST_F(Report, a_folder_that_is_no_run_is_refused) {
   } catch (const DeckFailure& failure) {
     EXPECT_THAT(failure.what(), HasSubstr("is not the folder of a run"));
   }
-}
-
-TEST_F(Report, writes_one_picture_of_the_specimen) {
-  make_run();
-  write_picture(folder, folder / "specimen.png");
-  EXPECT_THAT(read(folder / "specimen.png"), HasSubstr("PNG"));
 }
 
 TEST(ReportTable, a_heading_has_a_name_and_a_unit) {

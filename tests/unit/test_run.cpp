@@ -50,10 +50,9 @@ class Dawdler final : public Mover {
   static constexpr std::chrono::milliseconds pause{20};
 
   void choose_rotations(bool) override {}
-  void prepare(Workings& workings, bool) override { workings.moment().time_step = time_step(); }
+  void prepare(Workings& workings, bool) override { workings.moment().time_step = 1e-6; }
   void step(Workings& workings) override { ++workings.moment().step; }
   void complete(Workings&) override { std::this_thread::sleep_for(pause); }
-  Real time_step() const override { return 1e-6; }
 };
 
 RunFigures run_deck(const std::filesystem::path& deck, const std::filesystem::path& out, const RunOptions& options,

@@ -114,7 +114,6 @@ class OneByOne final : public Mover {
   void choose_rotations(bool) override {}
   void prepare(Workings& w, bool) override { w.evaluate(true); }
   void step(Workings& w) override { w.evaluate(true), ++w.moment().step; }
-  Real time_step() const override { return 1; }
   Breaks breaks() const override { return Breaks::highest; }
 };
 

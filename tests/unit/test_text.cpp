@@ -48,14 +48,12 @@ TEST(Text, a_number_is_written_so_that_it_reads_back_the_same) {
   for (const double x : {1.0 / 3, 1e-300, 123456789.123, -0.0, 5e-324}) EXPECT_EQ(parse_number(format_number(x)), x);
 }
 
-TEST(Text, words_are_split_trimmed_joined_and_renamed) {
+TEST(Text, words_are_split_trimmed_and_joined) {
   EXPECT_EQ(split_words("  a\tb\n c "), (std::vector<std::string>{"a", "b", "c"}));
   EXPECT_TRUE(split_words(" ").empty());
   EXPECT_EQ(split("a,,b", ','), (std::vector<std::string>{"a", "", "b"}));
   EXPECT_EQ(trim(" a b "), "a b");
   EXPECT_EQ(join({"a", "b"}), "a, b");
-  EXPECT_EQ(kebab_from_snake("free_filling"), "free-filling");
-  EXPECT_EQ(snake_from_kebab("free-filling"), "free_filling");
 }
 
 std::string marked(const std::vector<std::string>& first, const std::vector<std::string>& second) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/picture.hpp"
+#include "workbench/report/canvas.hpp"
 
 namespace beadwork::report {
 

@@ -30,14 +30,6 @@ std::vector<double> scaled(const std::vector<double>& values, double factor) {
   return out;
 }
 
-/// The sidecar's scale and unit for an axis ("x" or "y"), or one that reads well.
-Scale scale_for(const Curve& curve, const std::string& axis, const std::string& unit, double most) {
-  const auto factor = curve.sidecar.find(axis + "_scale");
-  if (factor != curve.sidecar.end() && factor->is_number())
-    return {factor->get<double>(), text_of(curve.sidecar, axis + "_unit", unit)};
-  return readable(unit, most);
-}
-
 bool varies(const Column& column) { return range_of(column.values).span() > 0; }
 
 /// What the sidecar names, unless it never changes (the displacement of a set that is held): then the time.
@@ -94,16 +86,15 @@ std::string panel(const Curve& curve, const Column& x, const std::vector<const C
   double most = 0;
   for (const Column* column : group) most = std::max(most, largest(column->values));
   const std::string& unit = group.front()->unit;
-  const Scale sx = scale_for(curve, "x", x.unit, largest(x.values)), sy = scale_for(curve, "y", unit, most);
+  const Scale sx = readable(x.unit, largest(x.values)), sy = readable(unit, most);
   Chart chart;
   const std::string named = text_of(curve.sidecar, "title", spaced(curve.name));
   const bool said = alone || group.size() > 1 || named == group.front()->name;
   chart.title = said ? named : named + ": " + group.front()->name;
-  chart.x_name = text_of(curve.sidecar, "x_label", x.name);
+  chart.x_name = x.name;
   chart.x_unit = sx.unit == "1" ? "" : sx.unit;
   chart.x_label = with_unit(chart.x_name, sx.unit);
-  const std::string together = group.size() == 1 ? group.front()->name : "";
-  chart.y_label = with_unit(alone ? text_of(curve.sidecar, "y_label", together) : together, sy.unit);
+  chart.y_label = with_unit(group.size() == 1 ? group.front()->name : "", sy.unit);
   const auto x_values = scaled(x.values, sx.factor);
   for (const Column* column : group)
     chart.series.push_back(
@@ -147,9 +138,8 @@ std::string loading_at(const Run& run, const record::FrameHead& head) {
     const Column* x = abscissa(curve);
     const std::size_t row = row_at(curve.table, head);
     if (is_ledger(curve) || is_clock(*x) || row >= x->values.size() || !curve.table.find("time")) continue;
-    const Scale scale = scale_for(curve, "x", x->unit, largest(x->values));
-    return text_of(curve.sidecar, "x_label", x->name) + " " + number(x->values[row] * scale.factor, 3) +
-           (scale.unit == "1" ? "" : " " + scale.unit);
+    const Scale scale = readable(x->unit, largest(x->values));
+    return x->name + " " + number(x->values[row] * scale.factor, 3) + (scale.unit == "1" ? "" : " " + scale.unit);
   }
   return "";
 }
@@ -168,10 +158,10 @@ std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of
       most_x = std::max(most_x, largest(own_x->values));
       most_y = std::max(most_y, largest(own_y->values));
     }
-    const Scale sx = scale_for(model, "x", x.unit, most_x), sy = scale_for(model, "y", y->unit, most_y);
+    const Scale sx = readable(x.unit, most_x), sy = readable(y->unit, most_y);
     Chart chart;
     chart.title = text_of(model.sidecar, "title", spaced(model.name)) + ": " + y->name;
-    chart.x_name = text_of(model.sidecar, "x_label", x.name);
+    chart.x_name = x.name;
     chart.x_unit = sx.unit == "1" ? "" : sx.unit;
     chart.x_label = with_unit(chart.x_name, sx.unit);
     chart.y_label = with_unit(y->name, sy.unit);

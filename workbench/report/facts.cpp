@@ -124,7 +124,7 @@ std::string facts_table(const Json& object, const std::string& unit_of_numbers) 
 std::string facts(const Run& run) {
   static constexpr std::array<const char*, 7> headline = {
       "elements", "bonds", "steps", "time_step", "wall_seconds", "bond_updates_per_second", "threads"};
-  static constexpr std::array<const char*, 8> elsewhere = {"status", "exit_reason", "scene",       "energy",
+  static constexpr std::array<const char*, 8> elsewhere = {"status", "exit_reason", "name",        "energy",
                                                            "breaks", "packing",     "utilisation", "quality"};
   std::string tiles;
   for (const char* key : headline) {

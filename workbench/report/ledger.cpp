@@ -17,29 +17,21 @@ bool mentions(const std::string& name, std::initializer_list<const char*> words)
   return std::any_of(words.begin(), words.end(), [&](const char* w) { return name.find(w) != std::string::npos; });
 }
 
-bool lists(const Json& sidecar, const std::string& key, const std::string& name) {
-  const auto listed = sidecar.find(key);
-  return listed != sidecar.end() && listed->is_array() &&
-         std::find(listed->begin(), listed->end(), Json(name)) != listed->end();
-}
-
 struct Account {
   std::vector<const Column*> input, stores;
   const Column* residual = nullptr;
 };
 
-/// The sidecar may say what is "input" and what "stores"; else the names do.
+/// The names say what is put in and what is there.
 Account account_of(const Curve& curve) {
   Account account;
   for (const Column& column : curve.table.columns) {
     if (column.name == "step" || column.unit != "J" || column.is_reference()) continue;
     if (mentions(column.name, {"residual", "error"}))
       account.residual = &column;
-    else if (lists(curve.sidecar, "input", column.name) ||
-             (!curve.sidecar.contains("input") && mentions(column.name, {"work", "external", "input"})))
+    else if (mentions(column.name, {"work", "external", "input"}))
       account.input.push_back(&column);
-    else if (lists(curve.sidecar, "stores", column.name) ||
-             (!curve.sidecar.contains("stores") && !mentions(column.name, {"total", "sum", "balance"})))
+    else if (!mentions(column.name, {"total", "sum", "balance"}))
       account.stores.push_back(&column);
   }
   return account;

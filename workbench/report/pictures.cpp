@@ -117,15 +117,15 @@ std::map<std::string, std::vector<std::int64_t>> sets_of(Run& run) {
 
 }  // namespace
 
-std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all, std::size_t most) {
+std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all) {
+  constexpr std::size_t most = 8;
   std::vector<record::FrameHead> flagged;
   std::copy_if(all.begin(), all.end(), std::back_inserter(flagged),
                [](const record::FrameHead& h) { return h.picture; });
   const std::vector<record::FrameHead>& from = flagged.empty() ? all : flagged;
   if (from.size() <= most) return from;
   std::vector<record::FrameHead> some;
-  for (std::size_t k = 0; k < most; ++k)
-    some.push_back(from[most == 1 ? from.size() - 1 : k * (from.size() - 1) / (most - 1)]);
+  for (std::size_t k = 0; k < most; ++k) some.push_back(from[k * (from.size() - 1) / (most - 1)]);
   return some;
 }
 

@@ -66,15 +66,11 @@ void note_dropped(const Table& table, const std::string& name, std::vector<std::
                     " infinite, undefined or too large to be drawn: gaps in the curve.");
 }
 
-/// The sidecar's "order" decides; else the load comes first, and what nobody described comes last.
-double place_of(const Curve& curve) {
-  const auto order = curve.sidecar.find("order");
-  if (order != curve.sidecar.end() && order->is_number()) return order->get<double>();
-  if (curve.sidecar.empty()) return 1000;
-  return std::any_of(curve.table.columns.begin(), curve.table.columns.end(),
-                     [](const Column& c) { return c.unit == "N"; })
-             ? 100
-             : 200;
+/// The load comes first, and what nobody described comes last.
+int place_of(const Curve& curve) {
+  if (curve.sidecar.empty()) return 2;
+  const auto& columns = curve.table.columns;
+  return std::none_of(columns.begin(), columns.end(), [](const Column& c) { return c.unit == "N"; });
 }
 
 void read_curves(Run& run) {
@@ -189,7 +185,7 @@ Run open_curves(const fs::path& folder) {
   run.summary = read_json(folder / "summary.json", run.notes);
   read_status(run);
   read_notes(run);
-  run.scene = text_of(run.summary, "scene", text_of(run.summary, "name"));
+  run.scene = text_of(run.summary, "name");
   read_curves(run);
   return run;
 }

@@ -29,8 +29,8 @@ struct Stage;
 /// What the frames recorded besides places, in colours with their bar.
 std::string field_pictures(const Stage&, const std::vector<record::Frame>& frames);
 
-/// Those that the run flagged, else all; of these at most `most`, spread evenly from the first to the last.
-std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all, std::size_t most = 8);
+/// Those that the run flagged, else all; of these at most eight, spread evenly from the first to the last.
+std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all);
 
 /// "opening 0.29 mm", read from the first curve that is drawn against something other than time; else empty.
 std::string loading_at(const Run&, const record::FrameHead&);

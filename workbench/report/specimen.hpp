@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/io/frame_reader.hpp"
-#include "core/io/picture.hpp"
+#include "workbench/report/canvas.hpp"
 #include "workbench/report/color_scale.hpp"
 #include "workbench/report/viewpoint.hpp"
 

@@ -2,7 +2,7 @@
 // From where a specimen is looked at, and how much of it the picture holds.
 
 #include "core/io/frame_reader.hpp"
-#include "core/io/picture.hpp"
+#include "workbench/report/canvas.hpp"
 
 namespace beadwork::report {
 

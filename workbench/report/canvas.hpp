@@ -8,7 +8,7 @@
 
 #include "core/base/types.hpp"
 
-namespace beadwork {
+namespace beadwork::report {
 
 struct Color {
   float red = 0, green = 0, blue = 0;  ///< sRGB, 0 to 1
@@ -86,4 +86,4 @@ class Canvas {
 /// The bytes of a PNG file. Throws MachineFailure if libpng does.
 std::vector<std::uint8_t> png(const Image&);
 
-}  // namespace beadwork
+}  // namespace beadwork::report

@@ -1,4 +1,4 @@
-#include "core/io/picture.hpp"
+#include "workbench/report/canvas.hpp"
 
 #include <png.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/base/failure.hpp"
 
-namespace beadwork {
+namespace beadwork::report {
 
 namespace {
 
@@ -250,4 +250,4 @@ std::vector<std::uint8_t> png(const Image& image) {
   return out;
 }
 
-}  // namespace beadwork
+}  // namespace beadwork::report

@@ -1,5 +1,5 @@
 // The rasteriser: what is nearer hides what is behind, edges are smooth, bytes repeat.
-#include "core/io/picture.hpp"
+#include "workbench/report/canvas.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/random.hpp"
 
-namespace beadwork {
+namespace beadwork::report {
 namespace {
 
 constexpr Color red{1, 0, 0}, blue{0, 0, 1};
@@ -30,7 +30,7 @@ Rgba at(const Image& image, int x, int y) {
   return {p[0], p[1], p[2], p[3]};
 }
 
-TEST(Picture, the_nearer_sphere_hides_the_farther_in_whatever_order_they_are_drawn) {
+TEST(Canvas, the_nearer_sphere_hides_the_farther_in_whatever_order_they_are_drawn) {
   for (const bool near_first : {true, false}) {
     Canvas canvas(square(4), 64);
     const Vec3 near(0, 0, 1), far(0, 0, -1);
@@ -42,7 +42,7 @@ TEST(Picture, the_nearer_sphere_hides_the_farther_in_whatever_order_they_are_dra
   }
 }
 
-TEST(Picture, y_points_up_and_x_to_the_right) {
+TEST(Canvas, y_points_up_and_x_to_the_right) {
   Canvas canvas(square(4), 64);
   canvas.sphere(Vec3(1, 1, 0), 0.5, red);
   const Image image = canvas.image();
@@ -50,7 +50,7 @@ TEST(Picture, y_points_up_and_x_to_the_right) {
   EXPECT_EQ(at(image, 16, 48).alpha, 0);
 }
 
-TEST(Picture, what_nothing_covers_is_transparent_and_the_edge_is_smooth) {
+TEST(Canvas, what_nothing_covers_is_transparent_and_the_edge_is_smooth) {
   Canvas canvas(square(4), 64);
   canvas.sphere(Vec3(0.011, 0.007, 0), 1, red);
   const Image image = canvas.image();
@@ -61,7 +61,7 @@ TEST(Picture, what_nothing_covers_is_transparent_and_the_edge_is_smooth) {
   EXPECT_GT(partly, 20);
 }
 
-TEST(Picture, a_sphere_covers_pi_r_squared) {
+TEST(Canvas, a_sphere_covers_pi_r_squared) {
   Canvas canvas(square(4), 200);
   canvas.sphere(Vec3::Zero(), 1, red);
   const Image image = canvas.image();
@@ -71,7 +71,7 @@ TEST(Picture, a_sphere_covers_pi_r_squared) {
   EXPECT_NEAR(covered / (200.0 * 200.0) * 16, 3.14159, 0.01);  // derived: area of the disc
 }
 
-TEST(Picture, a_disc_seen_from_its_edge_stays_visible_and_a_segment_has_its_thickness) {
+TEST(Canvas, a_disc_seen_from_its_edge_stays_visible_and_a_segment_has_its_thickness) {
   Canvas canvas(square(4), 100);
   canvas.disc(Vec3::Zero(), Vec3(0, 1, 0), 1, blue);
   EXPECT_EQ(at(canvas.image(), 50, 50).alpha, 255);
@@ -82,7 +82,7 @@ TEST(Picture, a_disc_seen_from_its_edge_stays_visible_and_a_segment_has_its_thic
   EXPECT_EQ(at(line, 50, 42).alpha, 0);
 }
 
-TEST(Picture, after_flatten_a_mark_lies_in_front_of_what_was_drawn) {
+TEST(Canvas, after_flatten_a_mark_lies_in_front_of_what_was_drawn) {
   Canvas canvas(square(4), 64);
   canvas.sphere(Vec3(0, 0, 5), 1, red);
   canvas.flatten();
@@ -90,7 +90,7 @@ TEST(Picture, after_flatten_a_mark_lies_in_front_of_what_was_drawn) {
   EXPECT_GT(at(canvas.image(), 32, 32).blue, 200);
 }
 
-TEST(Picture, spheres_outside_or_without_a_place_are_left_out) {
+TEST(Canvas, spheres_outside_or_without_a_place_are_left_out) {
   Canvas canvas(square(4), 32);
   canvas.sphere(Vec3(100, 0, 0), 1, red);
   canvas.sphere(Vec3(std::nan(""), 0, 0), 1, red);
@@ -107,14 +107,14 @@ Image packing(int count) {
   return canvas.image();
 }
 
-TEST(Picture, the_same_picture_has_the_same_bytes) {
+TEST(Canvas, the_same_picture_has_the_same_bytes) {
   const auto bytes = png(packing(5000));
   EXPECT_EQ(bytes, png(packing(5000)));
   ASSERT_GT(bytes.size(), 100U);
   EXPECT_EQ(0, std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", 8));
 }
 
-TEST(Picture, a_size_that_is_not_one_is_refused) {
+TEST(Canvas, a_size_that_is_not_one_is_refused) {
   Camera camera;
   camera.width = 0;
   EXPECT_THROW(Canvas(camera, 100), MachineFailure);
@@ -122,4 +122,4 @@ TEST(Picture, a_size_that_is_not_one_is_refused) {
 }
 
 }  // namespace
-}  // namespace beadwork
+}  // namespace beadwork::report
