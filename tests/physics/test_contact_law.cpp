@@ -136,6 +136,14 @@ std::string floor_and_ball() {
 constexpr const char* weight = R"(<gravity set="b"/><hold set="a"/><hold set="a" axes="rx ry rz"/>)";
 
 // v^2/(2 mu g)
+// Of second order, though the stiffness across falls as the contact opens.
+TEST(Friction, of_hertz_closes_the_ledger_with_the_square_of_the_step) {
+  const auto residual = [](int steps) {
+    return std::abs(oblique(0.5, hertz(steps, R"(friction="0.4")")).energy("residual"));
+  };
+  EXPECT_LT(residual(80), residual(20) / 6);
+}
+
 TEST(Friction, brings_to_rest_what_slides_after_v_squared_over_two_mu_g) {
   const DeckRun run = run_deck(
       deck(floor_and_ball(), R"(<penalty name="c" between="a b" stiffness="1 kN/m" friction="0.3" restitution="0.3"/>)",
@@ -188,6 +196,30 @@ TEST(Contact, takes_over_from_a_broken_beam_without_a_jump) {
   EXPECT_GT(at_break, 0.7);
   EXPECT_LT(largest_jump, 0.05);
   EXPECT_LT(std::abs(run.energy("residual")), 1e-3 * run.energy("work"));
+}
+
+// Broken at 1.8 mm, drawn far beyond any skin, and brought back to 1.9 mm: what touched at 1.8 does so again, not earlier.
+TEST(Contact, of_what_was_bonded_is_at_the_distance_of_the_break_however_far_it_went_meanwhile) {
+  for (const char* skin : {"0.1", "3"}) {
+    const DeckRun run = run_deck("<scene><fill>" + sphere("a", 0, 0, 0) + sphere("b", 1.8e-3, 0, 0) + R"(</fill>
+      <bond><spring name="s" between="a b" young="1 GPa"/></bond><fail><bond-stress of="s" strength="10 kPa" measure="axial"/></fail>
+      <contact><penalty name="c" between="a b" stiffness="1 MN/m" skin=")" +
+                                 skin + R"("/></contact>
+      <load><hold set="a"/><pull set="b" axis="x" table="0 s 10 mm/s, 80 ms 10 mm/s, 81 ms 0 m/s, 82 ms -10 mm/s, 160 ms -10 mm/s"/></load>
+      <move><verlet time-step="10 us" until="155 ms"/></move><watch><force-curve of="b" axis="x" every="10"/><energy-ledger every="10"/></watch></scene>)");
+    EXPECT_EQ(run.failure, "");
+    EXPECT_EQ(run.summary.at("breaks").at("axial"), 1);
+    const Real last = run.curves.at("force").back().at("displacement");
+    ASSERT_LT(last, 0.15e-3);
+    ASSERT_GT(last, 0.01e-3);
+    EXPECT_NEAR(run.curves.at("force").back().at("force"), 0, 1e-3) << skin;
+  }
+}
+
+TEST(Contact, of_a_pair_that_two_laws_act_on_is_warned_of) {
+  const DeckRun run = run_deck(deck(sphere("a", 0, 0, 0) + sphere("b", 2.1e-3, 0, 0),
+                                    penalty(20) + R"(<penalty name="d" between="b a" stiffness="1 MN/m"/>)", "", "5"));
+  EXPECT_THAT(run.warned, ::testing::Contains(::testing::HasSubstr("contacts 'd' and 'c' both act on 1 pairs")));
 }
 
 TEST(Contact, leaves_pairs_alone_that_a_bond_holds) {

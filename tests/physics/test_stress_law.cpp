@@ -205,6 +205,14 @@ TEST(ElementsThatFail, keep_bonds_of_families_that_the_criterion_does_not_name) 
       << "all that hold it count in its stress, two may break";
 }
 
+// 's' and 'w' are pulled at too, but none of the bonds that may break holds them.
+TEST(ElementsThatFail, are_those_that_a_bond_of_the_families_holds) {
+  const auto done = testing::run_deck(fmt::format(fmt::runtime(cross), "tail", 0.001, "hydrostatic", 300));
+  EXPECT_EQ(done.summary.at("breaks").at("virial-hydrostatic"), 1);
+  const Real element = done.summary.at("utilisation").at("fail.virial-stress").at("element");
+  EXPECT_TRUE(element == 1 || element == 5) << element;
+}
+
 // In a plane state s_xx = s_yy = 1.5 times the mean of three.
 TEST(ElementsThatFail, by_their_largest_principal_stress_do_so_earlier) {
   const auto by = [](const std::string& measure) {
@@ -215,6 +223,18 @@ TEST(ElementsThatFail, by_their_largest_principal_stress_do_so_earlier) {
 }
 
 // ---- strength with scatter
+
+TEST(ScatteredStrength, is_drawn_when_its_bonds_are_made_in_whatever_stage) {
+  const auto done =
+      testing::run_deck(R"(<scene><fill><lattice set="all" count="4 4 4" radius="1 mm" density="2000 kg/m^3"/></fill>
+    <fail><bond-stress of="s" strength="1 GPa" weibull="5" measure="axial"/></fail>
+    <move><verlet time-step="1 us"/></move><watch><sensor field="fail.bond-stress.strength-factor" bonds="s" reduce="mean" every="1"/></watch>
+    <stage until="2"><load><push set="all" force="1 0 0 N"/></load></stage>
+    <stage until="2"><bond><spring name="s" between="all all" young="1 GPa"/></bond></stage></scene>)");
+  EXPECT_EQ(done.failure, "");
+  EXPECT_NEAR(done.curves.at("sensor").back().at("mean"), 1, 0.1);
+  EXPECT_TRUE(done.summary.at("breaks").empty());
+}
 
 TEST(ScatteredStrength, is_drawn_from_the_law_of_weibull_with_its_mean) {
   const auto factors = [](int seed, const char* modulus) {

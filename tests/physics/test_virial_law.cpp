@@ -23,7 +23,8 @@ TEST(virial, tension_is_positive) {
 TEST(virial, both_ends_get_the_same) {
   Random random(1);
   const Vec3 d = random_vector(random, 1), f = random_vector(random, 1);
-  const Mat3 one = matrix(virial_stress(bond_virial(d, f), 1)), other = matrix(virial_stress(bond_virial<Real>(-d, -f), 1));
+  const Mat3 one = matrix(virial_stress(bond_virial(d, f), 1)),
+             other = matrix(virial_stress(bond_virial<Real>(-d, -f), 1));
   EXPECT_EQ(one, other);
 }
 
