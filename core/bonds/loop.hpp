@@ -53,8 +53,8 @@ namespace bond_loop {
 /// not, and a processor does not see as far ahead as the next pack.
 inline constexpr Index ahead = 32;
 
-/// The bonds of a chunk, in packs as far as they fill them.
-template <Pass pass, class Law>
+/// The bonds of a chunk, in packs as far as they fill them; `sums`: somebody reads sums beside those of the forces.
+template <Pass pass, bool sums, class Law>
 bool run_chunk(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
   const Index* first = &table.first()[0];
   const Index* second = &table.second()[0];
@@ -67,7 +67,7 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
     constexpr int W = pack_width;
     for (; b + W <= chunk.live_end; b += W) {
       if (e.far() && b + ahead + W <= chunk.live_end) e.prefetch<W>(second + b + ahead);
-      if constexpr (pass.sections) {
+      if constexpr (sums) {
         const auto ends = e.ends<Law, W>(first + b, second + b);
         const auto wrench = l.template act<pass>(Several<W>{b, &flagged}, ends);
         e.add<Law::turns, W>(first + b, target + b, wrench);
@@ -82,13 +82,13 @@ bool run_chunk(const Law& law, const BondTable& table, const ElementLines& eleme
     const auto ends = e.ends<Law>(first[b], second[b]);
     const auto wrench = l.template act<pass>(One{b, &flagged}, ends);
     e.add<Law::turns>(first[b], target[b], wrench);
-    if constexpr (pass.sections) e.add_virial<1>(first + b, target + b, ends.apart, wrench.force);
+    if constexpr (sums) e.add_virial<1>(first + b, target + b, ends.apart, wrench.force);
   }
   return flagged;
 }
 
 /// The same with forces in single precision. Each bond is rounded by itself, so the bits do not depend on packs.
-template <Pass pass, class Law>
+template <Pass pass, bool sums, class Law>
 bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines& elements, const Chunk& chunk) {
   const Index* first = &table.first()[0];
   const Index* second = &table.second()[0];
@@ -103,7 +103,7 @@ bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines
     for (; b + 2 * W <= chunk.live_end; b += 2 * W) {
       const Several<W> low{b, &flagged}, high{b + W, &flagged};
       if (e.far() && b + ahead + 2 * W <= chunk.live_end) e.prefetch<2 * W>(second + b + ahead);
-      if constexpr (pass.sections) {
+      if constexpr (sums) {
         const auto near_ends = e.ends<Law, W>(first + b, second + b);
         const auto far_ends = e.ends<Law, W>(first + b + W, second + b + W);
         const auto wrench =
@@ -127,7 +127,7 @@ bool run_chunk_single(const Law& law, const BondTable& table, const ElementLines
     const auto ends = e.ends<Law>(first[b], second[b]);
     const auto wrench = widen(l.template act<pass>(OneSingle{one}, narrow(l.shift(one, ends))));
     e.add<Law::turns>(first[b], target[b], wrench);
-    if constexpr (pass.sections) e.add_virial<1>(first + b, target + b, ends.apart, wrench.force);
+    if constexpr (sums) e.add_virial<1>(first + b, target + b, ends.apart, wrench.force);
   }
   return flagged;
 }
@@ -142,10 +142,17 @@ std::vector<Index> run(const Law& law, const BondTable& table, const ElementLine
     const Chunk& chunk = table.chunks()[static_cast<std::size_t>(c)];
     if (clear) e.clear(c * length, std::min((c + 1) * length, elements));
     e.clear(chunk.halo_begin, chunk.halo_end);
-    if constexpr (pass.single)
-      flagged[static_cast<std::size_t>(c)] = run_chunk_single<pass>(law, table, e, chunk);
+    const auto go = [&]<bool sums>() {
+      if constexpr (pass.single)
+        return run_chunk_single<pass, sums>(law, table, e, chunk);
+      else
+        return run_chunk<pass, sums>(law, table, e, chunk);
+    };
+    if constexpr (pass.sections)
+      flagged[static_cast<std::size_t>(c)] =
+          e.sums() ? go.template operator()<true>() : go.template operator()<false>();
     else
-      flagged[static_cast<std::size_t>(c)] = run_chunk<pass>(law, table, e, chunk);
+      flagged[static_cast<std::size_t>(c)] = go.template operator()<false>();
   });
   std::vector<Index> list;
   for (Index c = 0; c < chunks; ++c)
