@@ -149,6 +149,7 @@ void Contacts::meet_and_part(ContactLaw& law, BondTable& table, const Pairs& bon
     }
   const std::vector<Index> fresh = table.renew(pairs);
   state_.scene.bind();
+  if (fresh.empty()) return;
   const auto broken = broken_pairs();
   const auto id = domain.elements().column("id").view<Index>();
   const auto x = domain.elements().column("position").view<Vec3>();

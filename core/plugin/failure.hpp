@@ -20,7 +20,8 @@ class Failure : public Plugin {
   std::vector<std::string> families() const override { return *of; }
   bool judges_elements() const { return utilisation.field().on == On::elements; }
 
-  /// Once, when the first stage in which it stands begins and its bonds are there: draws what is random.
+  /// When the first stage in which it stands begins, and when bonds of one of its families are made later: draws what is
+  /// random and has not been drawn.
   virtual void begin(const Domain&, std::uint64_t /*seed*/) {}
   /// Fills the utilisation of each live bond, or of each element. Also called at other steps than those of `every`, for
   /// those who want to see utilisations; then nothing breaks. All criteria see one configuration.
