@@ -4,6 +4,8 @@
 #include <map>
 #include <numeric>
 
+#include "core/domain/vocabulary.hpp"
+
 namespace beadwork {
 
 Index block_length(Index elements) { return std::clamp<Index>(elements / 32, 64, 1024); }
@@ -31,6 +33,7 @@ void BondTable::rebind() {
   second_ = rows_.column("second").view<Index>();
   target_ = rows_.column("target").view<Index>();
   state_ = rows_.column("state").view<State>();
+  if (Column* facet = rows_.find(field::facet.name)) facet_ = facet->view<Real>();
 }
 
 Index BondTable::live() const {
@@ -53,12 +56,17 @@ void BondTable::create(std::vector<std::pair<Index, Index>> pairs, Index first_i
   }
 }
 
-std::vector<Index> BondTable::renew(const std::vector<std::pair<Index, Index>>& pairs) {
+void BondTable::let_pairs_be_with_walls() {
+  rows_.add(field::facet).keep();
+  rebind();
+}
+
+std::vector<Index> BondTable::renew(const std::vector<Near>& pairs) {
   std::vector<Index> fresh, origin(pairs.size(), -1);
   Index old = 0;  // both lists are sorted
   for (std::size_t row = 0; row < pairs.size(); ++row) {
-    while (old < size() && std::pair(Index(first_[old]), Index(second_[old])) < pairs[row]) ++old;
-    if (old < size() && std::pair(Index(first_[old]), Index(second_[old])) == pairs[row])
+    while (old < size() && near(old) < pairs[row]) ++old;
+    if (old < size() && near(old) == pairs[row])
       origin[row] = old;
     else
       fresh.push_back(static_cast<Index>(row));
@@ -67,8 +75,10 @@ std::vector<Index> BondTable::renew(const std::vector<std::pair<Index, Index>>& 
   rebind();
   for (Index row = 0; row < size(); ++row) id_[row] = row;
   for (const Index row : fresh) {
-    first_[row] = pairs[static_cast<std::size_t>(row)].first;
-    second_[row] = pairs[static_cast<std::size_t>(row)].second;
+    const Near& pair = pairs[static_cast<std::size_t>(row)];
+    first_[row] = pair.first;
+    second_[row] = pair.second;
+    if (facet_) facet_[row] = pair.facet;
   }
   return fresh;
 }

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/domain/table.hpp"
+#include "core/domain/walls.hpp"
 
 namespace beadwork {
 
@@ -45,9 +45,16 @@ class BondTable {
 
   /// Makes one row per pair, first < second, sorted by (first, second); ids count from `first_id`.
   void create(std::vector<std::pair<Index, Index>> pairs, Index first_id);
+  /// Its pairs are of elements with walls, and tell which facet of the wall is meant.
+  void let_pairs_be_with_walls();
+  bool is_of_walls() const { return static_cast<bool>(facet_); }
+  /// The pair that stands in a row.
+  Near near(Index row) const {
+    return {first_[row], second_[row], facet_ ? static_cast<Index>(facet_[row]) : Index{-1}};
+  }
   /// Takes other pairs in place of its own, first < second, sorted; what is known of a pair that stays goes with it, all
   /// else is zero. Returns the rows of pairs that are new. To be cut anew.
-  std::vector<Index> renew(const std::vector<std::pair<Index, Index>>& pairs);
+  std::vector<Index> renew(const std::vector<Near>& pairs);
   /// Cuts into chunks for that many elements; halo rows count from `halo_begin`. Returns the end of the halo rows.
   /// Kept columns alone decide the result, so it may be called again after a restart.
   Index cut(Index elements, Index halo_begin);
@@ -76,6 +83,7 @@ class BondTable {
   std::vector<std::pair<Index, Index>> halo_;
   View<Index> first_, second_, target_, id_;
   View<State> state_;
+  View<Real> facet_;  ///< a Real, as laws read nothing else of a row
   bool broken_act_ = false;
   bool contacts_ = false;
 };

@@ -40,6 +40,7 @@ void Domain::reorder(const std::vector<Index>& order) {
     for (Index& row : set) row = row_of[static_cast<std::size_t>(row)];
     std::sort(set.begin(), set.end());
   }
+  walls_.reorder(row_of);
 }
 
 const Set& Domain::set(const std::string& name) const {

@@ -51,6 +51,9 @@ class Domain {
   const std::vector<const BondTable*>& families() const { return shown_; }
   Index bonds() const;
 
+  Walls& walls() { return walls_; }
+  const Walls& walls() const { return walls_; }
+
   BreakLog& breaks() { return breaks_; }
   const BreakLog& breaks() const { return breaks_; }
   const std::map<std::string, Set>& sets() const { return sets_; }
@@ -75,6 +78,7 @@ class Domain {
   std::map<std::string, Set> sets_;
   std::vector<std::unique_ptr<BondTable>> families_;
   std::vector<const BondTable*> shown_;  ///< the same, to those who may only look
+  Walls walls_;
   BreakLog breaks_;
   struct Share {
     Index element, begin, end;  ///< halo rows `shares_[begin..end)` belong to `element`

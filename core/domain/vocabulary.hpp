@@ -38,6 +38,7 @@ inline const Field contact_length{
     "m",
     "Distance of the centres below which two elements touch: the sum of their radii, or less where a bond broke",
     ""};
+inline const Field facet{"facet", On::bonds, Type::real, "1", "Number of the part of the wall", ""};
 inline const Field broke_at{"broke-at", On::bonds, Type::real, "m", "Distance of the centres when the bond broke", ""};
 inline const Field searched_at{
     "searched-at", On::elements, Type::vec3, "m", "Place when pairs that may touch were last looked for", ""};

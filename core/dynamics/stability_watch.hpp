@@ -59,6 +59,7 @@ class StabilityWatch {
   void check_bonds() const {
     for (const auto& acting : w_.laws()) {
       const BondTable& table = *acting.second;
+      if (table.is_of_walls()) continue;  // their skin is watched (core/loop/contacts)
       const auto first = [&](Index c) { return first_too_fast(table, table.chunks()[static_cast<std::size_t>(c)]); };
       const Index c = first_where(static_cast<Index>(table.chunks().size()), [&](Index k) { return first(k) >= 0; });
       if (c < 0) continue;
@@ -82,7 +83,10 @@ class StabilityWatch {
 
   // Nor does an element pass by itself in one step.
   void check_elements() const {
-    const auto moved = [&](Index i) { return all_.velocity[i].norm() * dt() / all_.radius[i]; };
+    const auto moved = [&](Index i) {
+      const Real way = all_.velocity[i].norm() * dt();
+      return all_.radius[i] > 0 ? way / all_.radius[i] : 0 * way;  // a wall has no size to pass by
+    };
     const Index i = first_where(all_.count, [&](Index k) { return !(moved(k) <= 1 && all_.place[k].allFinite()); });
     if (i < 0) return;
     stop(i, std::isfinite(moved(i)) ? fmt::format("moves by {:.2g} of its radius in one step", moved(i))

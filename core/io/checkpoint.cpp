@@ -30,6 +30,13 @@ void save_lists(hid_t place, const Domain& domain) {
   for (const auto& [name, list] : domain.lists()) save_table(group.id(), name, list);
 }
 
+// A scene without walls has no word of them.
+void save_walls(hid_t place, const Walls& walls) {
+  if (!walls.any()) return;
+  save_table(place, "walls", walls.walls());
+  save_table(place, "facets", walls.facet_rows());
+}
+
 void save_families(hid_t place, const Domain& domain) {
   const h5::Handle group = h5::make_group(place, "bonds");
   std::vector<std::string> names;
@@ -187,6 +194,11 @@ void require_whole(const Domain& domain) {
     require_range(family->first(), family->size(), elements, "first end of a bond of '" + family->name() + "':");
     require_range(family->second(), family->size(), elements, "second end of a bond of '" + family->name() + "':");
     if (!family->is_of_contacts()) require_ids(family->id(), family->size(), bond_ids, "bonds");
+    if (family->is_of_walls())
+      for (Index row = 0; row < family->size(); ++row)
+        if (const Near pair = family->near(row); pair.facet < 0 || pair.facet >= domain.walls().facet_count())
+          throw MachineFailure(fmt::format("a contact of '{}' is with facet {} of a wall, which there is not",
+                                           family->name(), pair.facet));
     for (Index row = 0; row < family->size(); ++row)
       if (family->state()[row] > State::broken)
         throw MachineFailure(fmt::format("a bond of '{}' is in no state that there is", family->name()));
@@ -207,6 +219,15 @@ void load_lists(hid_t place, Domain& domain) {
                       list.size(), name));
     load_columns(group.id(), name, list, On::scene, fmt::format("the scene's {}", name));
   }
+}
+
+void load_walls(hid_t place, Domain& domain) {
+  Walls& walls = domain.walls();
+  for (const auto& [name, table] : {std::pair<const char*, Table*>{"walls", &walls.walls()}, {"facets", &walls.facet_rows()}}) {
+    table->resize(h5::has(place, name) ? saved_rows(place, name) : 0);
+    if (table->size() > 0) load_columns(place, name, *table, On::scene, fmt::format("the {}", name));
+  }
+  if (!walls.is_whole(domain.size())) throw MachineFailure("its walls name facets or elements that there are not");
 }
 
 // `families[k]` is the place in the domain of the file's family k.
@@ -279,6 +300,7 @@ void save_checkpoint(const std::filesystem::path& file, const Domain& domain, co
   save_table(out.id(), "elements", domain.elements());
   save_table(out.id(), "scene", domain.scene());
   save_lists(out.id(), domain);
+  save_walls(out.id(), domain.walls());
   save_families(out.id(), domain);
   save_sets(out.id(), domain);
   save_breaks(out.id(), domain.breaks());
@@ -298,6 +320,7 @@ void load_checkpoint(const std::filesystem::path& file, Domain& domain) {
     load_columns(place, "elements", domain.elements(), On::elements, "elements");
     load_columns(place, "scene", domain.scene(), On::scene, "the scene");
     load_lists(place, domain);
+    load_walls(place, domain);
     const auto families = load_families(place, domain);
     load_sets(place, domain);
     domain.breaks() = load_breaks(place, families, domain);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/io/wall_outlines.hpp"
+
 namespace beadwork {
 
 namespace {
@@ -28,6 +30,14 @@ void write_family(hid_t place, const FamilyRequest& request) {
   write_columns(group.id(), table.rows(), {"id", "state"}, request.columns);
 }
 
+// A frame of a scene without walls has no word of them.
+void write_walls(hid_t group, const Domain& domain) {
+  std::vector<Real> numbers;
+  for (const auto& line : wall_outlines(domain))
+    for (const Vec3& end : line) numbers.insert(numbers.end(), end.begin(), end.end());
+  if (!numbers.empty()) h5::write_reals(group, "walls", numbers, 6, {"m", "Lines that show the walls: from and to"});
+}
+
 XdmfGrid describe_grid(hid_t place, const std::string& name, const std::string& title, const std::string& path) {
   XdmfGrid grid{title, path, {}};
   const h5::Handle group = h5::open_group(place, name);
@@ -51,6 +61,7 @@ void write_frame(hid_t group, const FrameStamp& stamp, const FrameRequest& reque
   if (!request.view.empty()) h5::set_attribute(group, "view", request.view);
   const h5::Handle elements = h5::make_group(group, "elements");
   write_columns(elements.id(), domain.elements(), {"id", "position", "radius"}, request.elements);
+  write_walls(group, domain);
   const h5::Handle bonds = h5::make_group(group, "bonds");
   for (const FamilyRequest& family : request.bonds) write_family(bonds.id(), family);
 }

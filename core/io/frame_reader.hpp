@@ -48,6 +48,7 @@ struct Frame {
   std::vector<Vec3> displacement;   ///< empty, or as long as position
   std::vector<FieldValues> fields;  ///< of the elements, as long as position each
   std::vector<Bonds> bonds;
+  std::vector<std::array<Vec3, 2>> walls;  ///< lines that show them
 };
 
 /// Every break of the run, in the order in which they were booked.

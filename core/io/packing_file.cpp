@@ -28,8 +28,23 @@ std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::Fram
       if (const auto found = place.find(id); found != place.end()) members.push_back(found->second);
     std::sort(members.begin(), members.end());
     members.erase(std::unique(members.begin(), members.end()), members.end());
+    if (members.empty() && !ids.empty()) sets.erase(name);  // of walls
   }
   return sets;
+}
+
+// They are elements without a radius.
+void leave_out_walls(record::Frame& frame) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < frame.radius.size(); ++k) {
+    if (frame.radius[k] == 0) continue;
+    frame.id[kept] = frame.id[k];
+    frame.position[kept] = frame.position[k];
+    frame.radius[kept++] = frame.radius[k];
+  }
+  frame.id.resize(kept);
+  frame.position.resize(kept);
+  frame.radius.resize(kept);
 }
 
 StoredPacking first_frame(const std::filesystem::path& file) {
@@ -37,6 +52,7 @@ StoredPacking first_frame(const std::filesystem::path& file) {
   if (reader.frames().empty())
     throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
   record::Frame frame = reader.read(reader.frames().front());
+  leave_out_walls(frame);
   auto sets = recorded_sets(reader, frame);
   StoredPacking packing{std::move(frame.position), std::move(frame.radius), std::move(sets)};
   for (std::size_t k = 0; k < packing.radius.size(); ++k)

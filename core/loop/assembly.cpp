@@ -68,6 +68,13 @@ std::vector<Constraint> Stage::constraints() const {
       c.place = load->at().where();
       all.push_back(std::move(c));
     }
+  for (const Filler* filler : fillers)
+    for (Constraint& c : blaming(*filler, "constraints", [&] { return filler->constraints(); })) {
+      if (std::any_of(all.begin(), all.end(), [&](const Constraint& o) { return o.set == c.set && o.axis == c.axis; }))
+        continue;
+      c.place = filler->at().where();
+      all.push_back(std::move(c));
+    }
   return all;
 }
 
@@ -113,6 +120,7 @@ void Assembly::run() {
   if (complaints_.errors() == 0) {
     for (const auto& plugin : scene_.plugins) blaming(*plugin, "families", [&] { return plugin->families(); });
     for (const auto& plugin : scene_.plugins) blaming(*plugin, "check", [&] { plugin->check(complaints_); });
+    note_walls();
     for (const auto& plugin : scene_.plugins) blaming(*plugin, "choose", [&] { plugin->choose(); });
   }
   merge_common_into_stages();
@@ -252,10 +260,11 @@ void Assembly::merge_common_into_stages() {
     common_.name = "run";
     common_.at = deck_.root->at;
     scene_.stages.push_back(common_);
-    return;
+  } else {
+    for (Stage& stage : scene_.stages)
+      for (const InStage& kind : stage_kinds) kind.inherit(stage, common_);
   }
-  for (Stage& stage : scene_.stages)
-    for (const InStage& kind : stage_kinds) kind.inherit(stage, common_);
+  for (Stage& stage : scene_.stages) stage.fillers.assign(scene_.fillers.begin(), scene_.fillers.end());
 }
 
 void Assembly::check_stage(Stage& stage) {

@@ -41,6 +41,7 @@ class Assembly {
   std::string resolved(const Plugin& plugin, const ParamBase& param);
 
   // names (assembly_names.cpp)
+  void note_walls();
   void check_names();
   void check_order_of_regions();
   void check_curve_names();

@@ -49,7 +49,10 @@ void Assembly::add_families() {
     const auto* bonds = as_kind<BondLaw>(*plugin);
     const auto* contacts = as_kind<ContactLaw>(*plugin);
     if (bonds) scene_.domain->add_family(bonds->family());
-    if (contacts) scene_.domain->add_contacts(contacts->family());
+    if (contacts) {
+      BondTable& table = scene_.domain->add_contacts(contacts->family());
+      if (contacts->faces_walls()) table.let_pairs_be_with_walls();
+    }
     if (bonds || contacts) scene_.families.push_back(plugin->families().front());
   }
   if (!scene_.has_contacts()) return;
@@ -257,6 +260,11 @@ void Assembly::note_sums() {
     const auto& readers = scene_.readers_of(*derived);
     scene_.section_readers.insert(readers.begin(), readers.end());
     const auto counting = laws_that([&](const PairLaw& law) { return derived->sums_over(law); });
+    for (const PairLaw* law : counting)
+      if (const auto* contacts = as_kind<ContactLaw>(static_cast<const Plugin&>(*law)); contacts && contacts->faces_walls())
+        complaints_.error(derived->at(), fmt::format("<{}> cannot sum over the contacts '{}' with walls: their forces act "
+                                                     "at the surface, not between two centres",
+                                                     derived->tag(), law->family()));
     if (first && counting != scene_.summing)
       complaints_.error(derived->at(),
                         fmt::format("<{}> sums over other families than <{}>: one choice holds for a scene",

@@ -88,6 +88,32 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
                   law.at().where(), far, among.pairs.size(), *law.name));
 }
 
+/// Elements of one set and the facets of the walls of the other.
+std::vector<Near> walls_in_reach(const ContactLaw& law, const Domain& domain, Real skin) {
+  const auto x = domain.elements().column("position").view<Vec3>();
+  const auto r = domain.elements().column("radius").view<Real>();
+  const Column* turned = domain.elements().find("orientation");
+  std::vector<Index> rows, walls;
+  std::vector<Vec3> place;
+  std::vector<Real> reach;
+  std::vector<Walls::Pose> poses;
+  for (const std::string& name : *law.between)
+    for (const Index row : domain.set(name)) {
+      if (domain.walls().is_wall(row)) {
+        walls.push_back(row);
+        poses.push_back({x[row], turned ? turned->view<Quat>()[row] : identity()});
+      } else {
+        rows.push_back(row);
+        place.push_back(x[row]);
+        reach.push_back(r[row] + skin);
+      }
+    }
+  std::vector<Near> pairs = domain.walls().near(place, reach, walls, poses);
+  for (Near& pair : pairs) pair.first = rows[static_cast<std::size_t>(pair.first)];
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 }  // namespace
 
 bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) {
@@ -108,12 +134,13 @@ std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Dom
   return pairs;
 }
 
-std::vector<std::pair<Index, Index>> pairs_in_reach(const ContactLaw& law, const Domain& domain, Real skin) {
+std::vector<Near> pairs_in_reach(const ContactLaw& law, const Domain& domain, Real skin) {
+  if (law.faces_walls()) return walls_in_reach(law, domain, skin);
   const Candidates among =
       candidates(law, domain, [&](const Candidates& all) { return find_pairs(all.position, all.radius, 0, skin); });
-  std::vector<std::pair<Index, Index>> pairs;
+  std::vector<Near> pairs;
   pairs.reserve(among.pairs.size());
-  for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));
+  for (const Pair& pair : among.pairs) pairs.push_back({among.row(pair.i), among.row(pair.j)});
   return pairs;
 }
 

@@ -18,7 +18,8 @@ bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause);
 std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause,
                                                    const Log& log);
 
-/// Pairs of elements between the law's two sets whose surfaces are within `skin` [m], sorted.
-std::vector<std::pair<Index, Index>> pairs_in_reach(const ContactLaw& law, const Domain& domain, Real skin);
+/// Pairs of elements between the law's two sets, or of elements and facets of walls, whose surfaces are within `skin` [m],
+/// sorted.
+std::vector<Near> pairs_in_reach(const ContactLaw& law, const Domain& domain, Real skin);
 
 }  // namespace beadwork

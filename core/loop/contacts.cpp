@@ -21,6 +21,19 @@ bool has(const Pairs& sorted, const std::pair<Index, Index>& pair) {
   return std::binary_search(sorted.begin(), sorted.end(), pair);
 }
 
+Walls::Pose pose_of(const Domain& domain, Index row) {
+  const Column* turned = domain.elements().find("orientation");
+  return {domain.elements().column("position").view<Vec3>()[row], turned ? turned->view<Quat>()[row] : identity()};
+}
+
+Real farthest_from(const Domain& domain, const Vec3& place) {
+  const auto x = domain.elements().column("position").view<Vec3>();
+  const auto radius = domain.elements().column("radius").view<Real>();
+  Real far = 0;
+  for (Index row = 0; row < domain.size(); ++row) far = std::max(far, (x[row] - place).norm() + radius[row]);
+  return far;
+}
+
 }  // namespace
 
 void Contacts::begin_stage() {
@@ -54,11 +67,29 @@ bool Contacts::are_old() const {
   const auto then = domain.elements().column("searched-at").view<Vec3>();
   const auto velocity = domain.elements().column("velocity").view<Vec3>();
   const Real dt = 1.5 * state_.moment.time_step;
-  return rows::any_of(domain.size(), [&](const auto& at) {
+  return have_walls_moved() || rows::any_of(domain.size(), [&](const auto& at) {
     using T = typename std::decay_t<decltype(at)>::Number;
     const Vec<T> moved = at(now) - at(then), step = at(velocity);
     return sqrt(dot(moved, moved)) + T(dt) * sqrt(dot(step, step)) > T(narrowest_);
   });
+}
+
+// A wall that turns moves its farther points by more than its place.
+bool Contacts::have_walls_moved() const {
+  const Domain& domain = state_.domain();
+  const Walls& walls = domain.walls();
+  const Column* spins = domain.elements().find("spin");
+  if (!walls.any() || !spins) return false;
+  const auto spin = spins->view<Vec3>(), velocity = domain.elements().column("velocity").view<Vec3>();
+  const Real dt = 1.5 * state_.moment.time_step;
+  for (Index k = 0; k < walls.size(); ++k) {
+    const Index row = walls.element(k);
+    const Walls::Pose pose = pose_of(domain, row);
+    if (walls.moved(k, pose, 1) == 0 && spin[row].isZero()) continue;
+    const Real far = std::min(farthest_from(domain, pose.position), walls.extent(k));
+    if (walls.moved(k, pose, far) + dt * (velocity[row].norm() + spin[row].norm() * far) > narrowest_) return true;
+  }
+  return false;
 }
 
 Real Contacts::skin(const ContactLaw& law) const {
@@ -66,7 +97,8 @@ Real Contacts::skin(const ContactLaw& law) const {
   const auto radius = domain.elements().column("radius").view<Real>();
   Real smallest = std::numeric_limits<Real>::infinity();
   for (const std::string& set : *law.between)
-    for (const Index row : domain.set(set)) smallest = std::min(smallest, radius[row]);
+    for (const Index row : domain.set(set))
+      if (radius[row] > 0) smallest = std::min(smallest, radius[row]);
   return *law.skin * smallest;
 }
 
@@ -128,6 +160,8 @@ void Contacts::search() {
   const auto position = domain.elements().column("position").view<Vec3>();
   const auto searched_at = domain.elements().column("searched-at").view<Vec3>();
   for (Index row = 0; row < domain.size(); ++row) searched_at.set(row, position[row]);
+  Walls& walls = domain.walls();
+  for (Index k = 0; k < walls.size(); ++k) walls.note(k, pose_of(domain, walls.element(k)));
   state_.breaks_searched = static_cast<Real>(domain.breaks().breaks.size());
   state_.searches += 1;
   domain.cut_families();
@@ -139,10 +173,10 @@ void Contacts::search() {
 // is followed no longer, since it has been bonded, is booked as released.
 void Contacts::meet_and_part(ContactLaw& law, BondTable& table, const Pairs& bonded) {
   const Domain& domain = state_.domain();
-  Pairs pairs = pairs_in_reach(law, domain, skin(law));
-  std::erase_if(pairs, [&](const auto& pair) { return has(bonded, pair); });
+  std::vector<Near> pairs = pairs_in_reach(law, domain, skin(law));
+  std::erase_if(pairs, [&](const Near& pair) { return has(bonded, {pair.first, pair.second}); });
   for (Index row = 0; row < table.size(); ++row)
-    if (!has(pairs, {table.first()[row], table.second()[row]})) {
+    if (!std::binary_search(pairs.begin(), pairs.end(), table.near(row))) {
       const Real held = blaming(law, state_.moment, [&] { return law.stored_energy(domain, table, row); });
       if (held != 0) state_.released_by(table) += held;
       blaming(law, state_.moment, [&] { law.part(table, row); });
@@ -157,6 +191,11 @@ void Contacts::meet_and_part(ContactLaw& law, BondTable& table, const Pairs& bon
   const auto length = table.rows().column("contact-length").view<Real>();
   for (const Index row : fresh) {
     const Index i = table.first()[row], j = table.second()[row];
+    if (law.faces_walls()) {
+      length[row] = radius[i];
+      blaming(law, state_.moment, [&] { law.meet(domain, table, row); });
+      continue;
+    }
     if (!((x[j] - x[i]).norm() > 1e-12 * (radius[i] + radius[j])))
       throw PhysicsFailure(fmt::format(
           "{}: error: elements {} and {} stand at one place, where contacts '{}' have no direction to push in",

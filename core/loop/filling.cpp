@@ -22,13 +22,16 @@ void run_filler(RunState& state, Filler& filler, const FillJob& job) {
   check_elements(filler, state.domain());
 }
 
-// Neighbours in space become neighbours in memory.
+// Neighbours in space become neighbours in memory. Walls stand last: they are the second of each pair.
 void order_elements(RunState& state) {
   Domain& domain = state.domain();
   std::vector<Vec3> position(static_cast<std::size_t>(domain.size()));
   const auto x = domain.elements().column("position").view<Vec3>();
   for (Index row = 0; row < domain.size(); ++row) position[static_cast<std::size_t>(row)] = x[row];
-  domain.reorder(hilbert_order(position));
+  std::vector<Index> order = hilbert_order(position);
+  if (domain.walls().any())
+    std::stable_partition(order.begin(), order.end(), [&](Index row) { return !domain.walls().is_wall(row); });
+  domain.reorder(order);
   state.scene.bind();
 }
 

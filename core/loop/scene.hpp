@@ -24,6 +24,7 @@ struct Stage {
   std::vector<BondLaw*> laws;
   std::vector<ContactLaw*> contacts;
   std::vector<Load*> loads;
+  std::vector<const Filler*> fillers;  ///< of the scene: some hold what they make
   std::vector<Mover*> movers;  ///< exactly one, once checked
   std::vector<Failure*> failures;
   std::vector<Watcher*> watchers;
@@ -31,7 +32,7 @@ struct Stage {
   std::optional<Until> until;
 
   Mover& mover() const { return *movers.front(); }
-  /// Of all its loads, in the deck's order.
+  /// Of all its loads, in the deck's order, and of what holds itself where these do not.
   std::vector<Constraint> constraints() const;
   bool watched_by(const Watcher& watcher) const;
   /// All its plugins, laws first.

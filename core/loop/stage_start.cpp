@@ -73,6 +73,7 @@ void let_laws_act(RunState& state) {
   for (ContactLaw* law : state.stage().contacts) {
     BondTable* table = domain.find_family(law->family());
     table->keep_broken_live();
+    if (law->faces_walls()) law->see(domain.walls());
     state.laws.emplace_back(law, table);
   }
   domain.cut_families();

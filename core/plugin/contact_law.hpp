@@ -1,5 +1,5 @@
 #pragma once
-// Section <contact>: acts between elements that touch and are not bonded.
+// Section <contact>: acts between elements that touch and are not bonded, or between elements and walls.
 
 #include "core/domain/vocabulary.hpp"
 #include "core/plugin/pair_law.hpp"
@@ -11,7 +11,7 @@ namespace beadwork {
 class ContactLaw : public PairLaw {
  public:
   static constexpr Kind its_kind = Kind::contact;
-  ContactLaw() : PairLaw(its_kind) {}
+  ContactLaw() : PairLaw(its_kind) { facet.want(false); }
   Param<Real> skin{this,
                    {.name = "skin",
                     .range = {0, 10, true, false},
@@ -20,15 +20,32 @@ class ContactLaw : public PairLaw {
                     .fallback = "0.3"}};
   Reads<Real> radius{this, field::radius};
   Keeps<Real> length{this, field::contact_length};
+  Keeps<Real> facet{this, field::facet};
   Keeps<Vec3> searched_at{this, field::searched_at};
 
   bool acts_when_broken() const final { return true; }  // it has no bonds that break
   bool is_in_stress() const override { return false; }
 
+  /// Told before `choose`: one of its two sets is of walls. The second element of its pairs is then the wall.
+  void face_walls() {
+    faces_walls_ = true;
+    facet.want(true);
+  }
+  bool faces_walls() const { return faces_walls_; }
+  /// Told before it acts, of a law that faces walls.
+  void see(const Walls& walls) { facets_ = walls.facets(); }
+
   /// A pair is followed from here on: its length is set, the rest of its row is zero.
   virtual void meet(const Domain&, const BondTable&, Index /*row*/) {}
   /// It is followed no longer; it does not touch. What it has dissipated is to be kept.
   virtual void part(const BondTable&, Index /*row*/) {}
+
+ protected:
+  const FacetViews& facets() const { return facets_; }
+
+ private:
+  bool faces_walls_ = false;
+  FacetViews facets_;
 };
 
 }  // namespace beadwork

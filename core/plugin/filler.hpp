@@ -7,6 +7,7 @@
 
 #include "core/base/headway.hpp"
 #include "core/base/log.hpp"
+#include "core/domain/constraint.hpp"
 #include "core/plugin/plugin.hpp"
 
 namespace beadwork {
@@ -37,6 +38,10 @@ class Filler : public Plugin {
   virtual void conclude(const FillJob&) {}
   /// True for what looks at the finished packing (sets by region): it runs behind all others, in the deck's order.
   virtual bool after_filling() const { return false; }
+  /// True for what makes sets of rigid walls, and no elements that have a size.
+  virtual bool makes_walls() const { return false; }
+  /// How it holds what it makes by itself, along axes along which no load of a stage does.
+  virtual std::vector<Constraint> constraints() const { return {}; }
 };
 
 }  // namespace beadwork

@@ -1,6 +1,8 @@
 #pragma once
-// What contacts of spheres share, whatever their normal force: damping by restitution, friction with history, and the time
+// What contacts share, whatever their normal force: damping by restitution, friction with history, and the time
 // step by which a collision is resolved.   docs/theory/contact.md
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
@@ -9,32 +11,34 @@
 #include "core/mechanics/collision.hpp"
 #include "core/mechanics/restitution.hpp"
 #include "core/plugin/bond_law_of.hpp"
+#include "plugins/contact/meeting.hpp"
 
 namespace beadwork {
 
 /// Columns of the contacts, null where the deck has no need of them, and numbers that are the same for all.
 struct CollidingColumns {
-  View<const Real> length, stiffness, viscosity, share;
+  MeetingColumns meeting;
+  View<const Real> stiffness, viscosity;
   View<Vec3> tangential;
   View<Real> damping_force, tangential_stiffness, dissipated;
   View<Real> overlap, normal_force;  // null where nobody reads them
   Real friction, tangential_ratio, expected_overlap, time_step;
 };
 
-template <class Normal, bool frictional>
+template <class Normal, class Meeting, bool frictional>
 struct CollidingLaw {
   CollidingColumns c;
 
-  static constexpr bool turns = frictional;
+  static constexpr bool turns = frictional || Meeting::with_walls;
   static constexpr bool travels = true;
 
   template <Pass pass, class At, class Ends>
   [[gnu::always_inline]] auto act(const At& at, const Ends& ends) const {
     using T = typename At::Number;
-    const T l = sqrt(dot(ends.apart, ends.apart));
-    const Vec<T> n = (T(1) / l) * ends.apart;
-    const T delta = max(T(0), at(c.length) - l), k = at(c.stiffness);
-    const Vec<T> rate = ends.v2 - ends.v1;
+    const auto touch = Meeting::find(c.meeting, at, ends);
+    const Vec<T> n = touch.n;
+    const T delta = touch.delta, k = at(c.stiffness);
+    const Vec<T> rate = touch.rate(ends);
     const T v_n = dot(rate, n), elastic = Normal::force(k, delta);
     T push = elastic, lost(0);
     if (c.viscosity) {
@@ -45,13 +49,12 @@ struct CollidingLaw {
       lost = T(-0.5 * c.time_step) * (at(View<const Real>(c.damping_force)) + damped) * v_n;
       if constexpr (pass.settle) at.store(c.damping_force, damped);
     }
-    Vec<T> force = push * n, moment = zero<Vec<T>>();
-    const T arm1 = arm(at, l), arm2 = l - arm1;
+    Vec<T> force = push * n, drag = zero<Vec<T>>();
     if constexpr (frictional) {
-      const Drag<T> drag = dragged<pass>(at, ends, n, rate - v_n * n, arm1, arm2, delta, push);
-      lost = lost + drag.lost;
-      force = force + drag.force;
-      moment = cross(drag.force, n);
+      const Drag<T> dragging = dragged<pass>(at, ends, n, touch.slide(ends, rate, v_n), delta, push);
+      lost = lost + dragging.lost;
+      drag = dragging.force;
+      force = force + drag;
     }
     if constexpr (pass.settle)
       if (c.dissipated) at.store(c.dissipated, at(View<const Real>(c.dissipated)) + lost);
@@ -59,13 +62,16 @@ struct CollidingLaw {
       if (c.overlap) at.store(c.overlap, delta);
       if (c.normal_force) at.store(c.normal_force, push);
     }
-    return Wrench<T>{copy(force), arm1 * moment, arm2 * moment};
+    if constexpr (frictional)
+      return touch.wrench(force, drag);
+    else
+      return touch.wrench(force);
   }
 
   template <class At, class Ends>
   auto stored(const At& at, const Ends& ends) const {
     using T = typename At::Number;
-    const T delta = max(T(0), at(c.length) - sqrt(dot(ends.apart, ends.apart))), k = at(c.stiffness);
+    const T delta = Meeting::overlap(c.meeting, at, ends), k = at(c.stiffness);
     T energy = Normal::energy(k, delta);
     if constexpr (frictional) {
       const Vec<T> held = at(View<const Vec3>(c.tangential));
@@ -82,23 +88,18 @@ struct CollidingLaw {
   /// Stiffest: as if it touched, and held by friction.
   template <class Ends>
   Matrix12 stiffness(const One& at, const Ends& ends, Slope slope) const {
-    const Real l = ends.apart.norm();
-    const Vec3 n = ends.apart / l;
-    Real delta = max(0.0, at(c.length) - l);
-    if (slope == Slope::stiffest) {
-      const Real smaller = at(c.length) * min(at(c.share), 1 - at(c.share));  // radius
-      delta = max(delta, c.expected_overlap * 2 * smaller);
-    }
+    const auto touch = Meeting::find(c.meeting, at, ends);
+    Real delta = touch.delta;
+    if (slope == Slope::stiffest) delta = max(delta, c.expected_overlap * Meeting::shortest(c.meeting, at));
     if (delta <= 0) return Matrix12::Zero();
     const Real along = Normal::slope(at(c.stiffness), delta);
-    Matrix12 k = stiffness::between_centres(along * (n * n.transpose()));
-    if constexpr (frictional) {
-      const Mat3 plane = stiffness::across(n), lever = stiffness::skew(n);
-      stiffness::Matrix3x12 slide;
-      slide << -plane, arm(at, l) * lever, plane, (l - arm(at, l)) * lever;
-      k += c.tangential_ratio * along * stiffness::square(slide);
-    }
-    return k;
+    const Mat3 normal = along * (touch.n * touch.n.transpose());
+    if constexpr (!turns) return stiffness::between_centres(normal);
+    const Mat3 all = frictional ? Mat3(normal + c.tangential_ratio * along * stiffness::across(touch.n)) : normal;
+    const auto [arm1, arm2] = touch.arms();
+    stiffness::Matrix3x12 way;  // of the second past the first, at the contact
+    way << -Mat3::Identity(), stiffness::skew(arm1), Mat3::Identity(), -stiffness::skew(arm2);
+    return way.transpose() * all * way;
   }
 
  private:
@@ -113,17 +114,10 @@ struct CollidingLaw {
   [[gnu::always_inline]] T across(const T& k, const T& delta) const {
     return T(c.tangential_ratio) * max(Normal::slope(k, delta), T(1e-12) * k);
   }
-  /// From the first centre to the contact: the distance is divided as the radii do.
-  template <class At, class T>
-  [[gnu::always_inline]] T arm(const At& at, const T& l) const {
-    return l * at(c.share);
-  }
-
   template <Pass pass, class At, class Ends, class T>
-  [[gnu::always_inline]] Drag<T> dragged(const At& at, const Ends& ends, const Vec<T>& n, const Vec<T>& rate,
-                                         const T& arm1, const T& arm2, const T& delta, const T& push) const {
+  [[gnu::always_inline]] Drag<T> dragged(const At& at, const Ends& ends, const Vec<T>& n, const Vec<T>& slide,
+                                         const T& delta, const T& push) const {
     const auto touches = delta > T(0);
-    const Vec<T> slide = rate - cross(arm1 * ends.w1 + arm2 * ends.w2, n);
     const T k = across(at(c.stiffness), delta);
     T before = k;
     if constexpr (!Normal::even) {
@@ -143,10 +137,12 @@ struct CollidingLaw {
   }
 };
 
-/// Contacts of spheres with one normal law.
+/// Contacts with one normal law.
 template <class Normal>
-class Colliding : public ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<Normal, true>> {
-  using Base = ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<Normal, true>>;
+class Colliding : public ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, CollidingLaw<Normal, OfSpheres, true>,
+                                      CollidingLaw<Normal, WithWall, false>, CollidingLaw<Normal, WithWall, true>> {
+  using Base = ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, CollidingLaw<Normal, OfSpheres, true>,
+                            CollidingLaw<Normal, WithWall, false>, CollidingLaw<Normal, WithWall, true>>;
 
  public:
   Param<Real> friction{this,
@@ -183,7 +179,7 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<
     Base::choose();
     viscosity.want(damps());
     damping_force.want(damps());
-    share.want(true);
+    share.want(!this->faces_walls());
     tangential.want(slides());
     tangential_stiffness.want(slides() && !Normal::even);
     dissipated.want(damps() || slides());
@@ -191,11 +187,13 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<
     zeta_ = damps() ? damping_for(Normal::exponent, *restitution) : 0;
   }
 
-  void meet(const Domain&, const BondTable& table, Index row) override {
+  void meet(const Domain& domain, const BondTable& table, Index row) override {
     const Index i = table.first()[row], j = table.second()[row];
-    const Real r1 = this->radius[i], r2 = this->radius[j], reduced = mass[i] * mass[j] / (mass[i] + mass[j]);
-    stiffness[row] = hardness(r1, r2);
-    share[row] = r1 / (r1 + r2);
+    const bool with_wall = this->faces_walls();
+    stiffness[row] = with_wall ? hardness_at(table.near(row).facet, i) : hardness(this->radius[i], this->radius[j]);
+    if (share) share[row] = this->radius[i] / (this->radius[i] + this->radius[j]);
+    const bool alone = with_wall && !domain.walls().moved_by_forces(j);  // a wall that only loads move does not give way
+    const Real reduced = alone ? mass[i] : mass[i] * mass[j] / (mass[i] + mass[j]);
     if (viscosity) viscosity[row] = 2 * zeta_ * std::sqrt(reduced * (Normal::even ? stiffness[row] : 1));
   }
   void part(const BondTable&, Index row) override {
@@ -205,13 +203,17 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<
     if (lost) sink.dissipated(this->family(), lost[0]);
   }
 
-  // Half a period of two alike, as if their stiffness were even, of the elements that are the quickest.
+  // Half a period, as if the stiffness were even, of the elements that are the quickest: of two alike, or of one at a wall.
   Real longest_step(const Domain& domain) const override {
+    const bool with_wall = this->faces_walls();
     Real shortest = std::numeric_limits<Real>::infinity();
     for (const std::string& set : *this->between)
       for (const Index i : domain.set(set)) {
-        const Real r = this->radius[i], k = Normal::slope(hardness(r, r), expected_overlap() * 2 * r);
-        shortest = std::min(shortest, std::numbers::pi * std::sqrt(0.5 * mass[i] / k));
+        const Real r = this->radius[i];
+        if (!(r > 0)) continue;
+        const Real k = with_wall ? Normal::slope(hardness_at_plane(r), expected_overlap() * r)
+                                 : Normal::slope(hardness(r, r), expected_overlap() * 2 * r);
+        shortest = std::min(shortest, std::numbers::pi * std::sqrt((with_wall ? 1 : 0.5) * mass[i] / k));
       }
     return shortest / *steps;
   }
@@ -219,16 +221,17 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<
  protected:
   /// k of the law for two radii.
   virtual Real hardness(Real r1, Real r2) const = 0;
+  /// The same for one radius at a rigid plane.
+  virtual Real hardness_at_plane(Real r) const = 0;
   /// Tangential over normal stiffness.
   virtual Real tangential_ratio() const = 0;
   /// Overlap over the distance of the centres that the time step is made for.
   virtual Real expected_overlap() const { return 1e-3; }
 
   typename Base::AnyLaw law() const override {
-    const CollidingColumns c{this->length.view(),
+    const CollidingColumns c{{this->length.view(), share.view(), this->facet.view(), this->facets()},
                              stiffness.view(),
                              viscosity.view(),
-                             share.view(),
                              tangential.view(),
                              damping_force.view(),
                              tangential_stiffness.view(),
@@ -239,13 +242,24 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, false>, CollidingLaw<
                              tangential_ratio(),
                              expected_overlap(),
                              this->time_step()};
-    if (slides()) return CollidingLaw<Normal, true>{c};
-    return CollidingLaw<Normal, false>{c};
+    return this->faces_walls() ? chosen<WithWall>(c) : chosen<OfSpheres>(c);
   }
 
  private:
   bool damps() const { return *restitution < 1; }
   bool slides() const { return *friction > 0; }
+  template <class Meeting>
+  typename Base::AnyLaw chosen(const CollidingColumns& c) const {
+    if (slides()) return CollidingLaw<Normal, Meeting, true>{c};
+    return CollidingLaw<Normal, Meeting, false>{c};
+  }
+  Real hardness_at(Index part, Index element) const {
+    const Real r = this->radius[element], blunt = blunt_as(this->facets(), part, r);
+    if (!(blunt > 0))
+      throw std::runtime_error(fmt::format("element of radius {:.6g} m does not fit into the hollow of wall '{}'", r,
+                                           (*this->between)[1]));
+    return hardness_at_plane(blunt);
+  }
   Real zeta_ = 0;
 };
 

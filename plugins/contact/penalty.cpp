@@ -18,7 +18,7 @@ class Penalty final : public Colliding<LinearContact> {
                      .unit = "Pa",
                      .range = positive,
                      .doc = "Modulus E of the elements: k = E pi R/2 with the harmonic mean R of their radii, as a rod "
-                            "between the centres has",
+                            "between the centres has; twice that at a wall, to which the rod is half as long",
                      .one_of = "hardness"}};
   Param<Real> tangential_ratio_{this,
                                 {.name = "tangential-ratio",
@@ -29,6 +29,9 @@ class Penalty final : public Colliding<LinearContact> {
  protected:
   Real hardness(Real r1, Real r2) const override {
     return normal_stiffness.given() ? *normal_stiffness : *young * std::numbers::pi * r1 * r2 / (r1 + r2);
+  }
+  Real hardness_at_plane(Real r) const override {
+    return normal_stiffness.given() ? *normal_stiffness : *young * std::numbers::pi * r;
   }
   Real tangential_ratio() const override { return *tangential_ratio_; }
 };

@@ -11,7 +11,7 @@ namespace beadwork {
 class Region final : public Filler {
  public:
   static constexpr const char* about =
-      "Names the elements for which a condition on their centre and radius holds, once after filling";
+      "Names the elements for which a condition on their centre and radius holds, once after filling; walls are none";
   Param<std::string> set{this, {.name = "set", .doc = "Name of the new set", .role = Role::makes_set}};
   Param<std::string> of{this,
                         {.name = "of",
@@ -32,6 +32,7 @@ class Region final : public Filler {
     Set members;
     const auto look = [&](Index row) {
       if (row % 4096 == 0) job.pause();
+      if (domain.walls().is_wall(row)) return;
       const Vec3 x = position[row];
       const Real values[] = {x.x(), x.y(), x.z(), radius[row]};
       if ((*where)(values) == 1) members.push_back(row);

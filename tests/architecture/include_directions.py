@@ -9,7 +9,7 @@ ALLOWED = {
     "base": set(),
     "deck": {"base"},
     "mechanics": {"base"},
-    "domain": {"base"},
+    "domain": {"base", "mechanics"},
     "io": {"base", "domain"},
     "packing": {"base", "domain"},
     "bonds": {"base", "domain", "mechanics"},
@@ -24,7 +24,7 @@ ALLOWED = {
 }
 # Each of these libraries is known to one part only.
 OWNERS = {"tinyxml2.h": "deck", "muParser.h": "deck", "hdf5.h": "io", "boost/dll/": "plugin",
-          "udunits2.h": "base", "CLI/": "workbench", "spdlog/": "workbench",
+          "udunits2.h": "base", "boost/geometry": "domain", "CLI/": "workbench", "spdlog/": "workbench",
           "png.h": "workbench"}
 
 

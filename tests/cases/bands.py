@@ -213,9 +213,10 @@ def heap():
     result = run("heap/quick.xml")
     with h5py.File(result.folder / "run.h5") as file:
         first, last = file["frames"][min(file["frames"])], file["frames"][max(file["frames"])]
-        radius = first["elements/radius"][:][1:]  # without the floor
-        fallen = first["elements/position"][:][1:, 2] - last["elements/position"][:][1:, 2]
-        bottom = last["elements/position"][:][1:, 2] - radius
+        balls = first["elements/radius"][:] > 0  # the floor has none
+        radius = first["elements/radius"][:][balls]
+        fallen = first["elements/position"][:][balls, 2] - last["elements/position"][:][balls, 2]
+        bottom = last["elements/position"][:][balls, 2] - radius
     weight = 2500 * 4 / 3 * math.pi * radius**3 * 9.80665
     near("work of the weight is what has fallen", result.energy["work: gravity"], float((weight * fallen).sum()), 2e-3)
     below("ledger's residual over work", residual_over_work(result.energy), 0.005)

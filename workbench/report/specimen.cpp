@@ -109,8 +109,10 @@ Color base_color(const Stage& stage, std::int64_t id) {
 
 Real mean_radius(const record::Frame& frame) {
   Real sum = 0;
-  for (const Real r : frame.radius) sum += r;
-  return frame.radius.empty() ? 1 : sum / static_cast<Real>(frame.radius.size());
+  std::size_t count = 0;  // without walls, which have none
+  for (const Real r : frame.radius)
+    if (r > 0) sum += r, ++count;
+  return count == 0 ? 1 : sum / static_cast<Real>(count);
 }
 
 /// Elements from front to back, those without a place or a size left out.
@@ -125,6 +127,11 @@ std::vector<std::size_t> front_to_back(const record::Frame& frame, const Place& 
   return rows;
 }
 
+void draw_walls(Canvas& canvas, const record::Frame& frame) {
+  for (const auto& [from, to] : frame.walls)
+    if (finite(from) && finite(to)) canvas.segment(from, to, 0.3 * mean_radius(frame), palette::wall);
+}
+
 void draw_bodies(Canvas& canvas, const Stage& stage, const record::Frame& frame, const Vec3& toward) {
   const auto worst = worst_states(frame);
   const auto place = [&](std::size_t i) { return magnified(frame, i, stage.magnification); };
@@ -133,6 +140,7 @@ void draw_bodies(Canvas& canvas, const Stage& stage, const record::Frame& frame,
     canvas.sphere(place(i), frame.radius[i], worst[i] == State::intact ? base : mix(base, color_of(worst[i]), 0.88F));
   }
   canvas.darken_hollows(4 * mean_radius(frame), 0.42F);
+  draw_walls(canvas, frame);
 }
 
 void draw_bond(Canvas& canvas, const record::Frame& frame, const std::array<Index, 2>& ends, const Vec3& toward,

@@ -20,6 +20,7 @@ constexpr Color body = color(0xC8CACC);
 /// For named sets: greys, greens and violets, so that none is taken for the blue, amber and crimson of the states.
 constexpr Color sets[] = {color(0xD3D3D3), color(0xA3AAA0), color(0xA9C8A4), color(0xC9B8DA),
                           color(0x7F8C80), color(0xD9DCC0), color(0x9A86B5), color(0x86B39B)};
+constexpr Color wall = color(0x5C6B7A);
 }  // namespace palette
 
 enum class Show {

@@ -19,7 +19,7 @@ Box box_of(const record::Frame& frame, const Place& place) {
   Box box{Vec3::Constant(1e300), Vec3::Constant(-1e300)};
   for (std::size_t i = 0; i < frame.position.size(); ++i) {
     const Vec3 p = place(i);
-    if (!finite(p)) continue;
+    if (!finite(p) || !(frame.radius[i] > 0)) continue;  // walls may stand far off
     box.low = box.low.cwiseMin(p - Vec3::Constant(frame.radius[i]));
     box.high = box.high.cwiseMax(p + Vec3::Constant(frame.radius[i]));
   }
