@@ -232,7 +232,7 @@ TEST(Contact, leaves_pairs_alone_that_a_bond_holds) {
 
 // ---- what is warned of
 
-// Three steps resolve a collision badly, and the step is stable all the same.
+// Three steps, of which 'safety' makes 3.3, resolve a collision badly, and are stable all the same.
 TEST(Contact, with_too_few_steps_is_named_where_the_balance_has_an_excess) {
   const auto run = [](int steps) {
     return run_deck(deck(sphere("a", -1.01e-3, 0, 0) + sphere("b", 1.01e-3, 0, 0), penalty(steps),
@@ -242,7 +242,7 @@ TEST(Contact, with_too_few_steps_is_named_where_the_balance_has_an_excess) {
   ASSERT_EQ(coarse.warned.size(), 1u);
   EXPECT_THAT(coarse.warned[0], ::testing::HasSubstr("that no work accounts for"));
   EXPECT_THAT(coarse.warned[0],
-              ::testing::HasSubstr("; contacts 'c' have 3 time steps in their shortest collision, which is few"));
+              ::testing::HasSubstr("; contacts 'c' have 3.3 time steps in their shortest collision, which is few"));
   EXPECT_THAT(fine.warned, ::testing::IsEmpty());
 }
 
