@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "core/base/text.hpp"
 #include "workbench/describe.hpp"
@@ -121,6 +122,23 @@ std::string columns_of(const Scene& scene, const Table& table, On on, const std:
   return text;
 }
 
+// The unit of a column is left out where only the run can tell it.
+std::string columns_of(const Curve& curve) {
+  std::vector<std::string> all;
+  for (const auto& [name, unit] : curve.plan.columns) all.push_back(unit.empty() ? name : name + " [" + unit + "]");
+  return join(all);
+}
+
+std::string curves(const Scene& scene) {
+  std::string text;
+  for (const auto& plugin : scene.plugins)
+    if (const auto* watcher = as_kind<Watcher>(std::as_const(*plugin)))
+      for (const Curve* curve : watcher->curves())
+        text +=
+            fmt::format("  {:28} {}: {}\n", "curves/" + *curve->name() + ".csv", label(*watcher), columns_of(*curve));
+  return text.empty() ? "" : "\nCurves, and what they have beside step and time\n" + text;
+}
+
 std::string fields(const Scene& scene) {
   const Domain& domain = *scene.domain;
   std::string text =
@@ -195,7 +213,7 @@ std::size_t row_bytes(const Table& table, On on) {
 std::string plan_text(const Scene& scene) {
   std::string text = filling(scene);
   for (std::size_t s = 0; s < scene.stages.size(); ++s) text += phases(scene, s);
-  return text + fields(scene) + not_needed(scene);
+  return text + curves(scene) + fields(scene) + not_needed(scene);
 }
 
 }  // namespace beadwork

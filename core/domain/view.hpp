@@ -59,10 +59,14 @@ class View {
   }
 
   [[gnu::always_inline]] void add(Index row, const Value& value) const requires(!std::is_const_v<T>) {
-    if constexpr (scalar)
+    if constexpr (scalar) {
       at(row, 0) += value;
-    else
+    } else if constexpr (std::is_same_v<Value, Sym3>) {
+      const Real numbers[] = {value.xx, value.xy, value.xz, value.yy, value.yz, value.zz};
+      for (int c = 0; c < 6; ++c) at(row, c) += numbers[c];
+    } else {
       for (int c = 0; c < 3; ++c) at(row, c) += value[c];
+    }
   }
 
   Byte* base() const { return base_; }

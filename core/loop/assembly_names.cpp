@@ -63,19 +63,20 @@ void Assembly::check_order_of_regions() {
   }
 }
 
-// Two watchers of one name would write over each other's curve, in whatever stages they stand.
+// Two curves of one name would write over one another, in whatever stages their watchers stand.
 void Assembly::check_curve_names() {
   std::map<std::string, const Watcher*> taken;
-  for (const Watcher* watcher : watchers()) {
-    const ParamBase* name = watcher->param("name");
-    if (!name || !name->given()) continue;
-    check_name(*name, name->text());
-    const auto [there, fresh] = taken.try_emplace(name->text(), watcher);
-    if (!fresh)
-      complaints_.error(name->in_deck() ? name->at() : watcher->at(),
-                        fmt::format("a curve '{}' exists already, made at {}: give this one another 'name'",
-                                    name->text(), there->second->at().where()));
-  }
+  for (const Watcher* watcher : watchers())
+    for (const Curve* curve : watcher->curves()) {
+      const Param<std::string>& name = curve->name();
+      if (!name.given()) continue;
+      check_name(name, *name);
+      const auto [there, fresh] = taken.try_emplace(*name, watcher);
+      if (!fresh)
+        complaints_.error(name.in_deck() ? name.at() : watcher->at(),
+                          fmt::format("a curve '{}' exists already, made at {}: give this one another '{}'", *name,
+                                      there->second->at().where(), name.info().name));
+    }
 }
 
 std::vector<const Watcher*> Assembly::watchers() const {

@@ -151,7 +151,6 @@ Ledger::Verdict Balance::look() {
 void Balance::check() {
   const auto verdict = look();
   if (verdict == Ledger::Verdict::balanced) return;
-  const Mover& mover = state_.mover();
   const auto surplus = fmt::format(
       "the energy balance has an excess of {:.4g} J that no work accounts for, {:.3g} {} the largest input so far, "
       "{:.4g} J",
@@ -161,11 +160,23 @@ void Balance::check() {
       verdict == Ledger::Verdict::gains ? "% of" : "times", ledger_.brought());
   const std::int64_t step = state_.moment.step;
   if (verdict == Ledger::Verdict::gains) {
-    if (ledger_.tells()) log_.warn(fmt::format("step {}: {}; {}", step, surplus, mover.suspect()));
+    if (ledger_.tells()) log_.warn(fmt::format("step {}: {}; {}", step, surplus, suspect()));
     return;
   }
   throw PhysicsFailure(fmt::format("step {}: {}, and it grows; element {} is the fastest; {}", step, surplus,
-                                   fastest_element(state_.domain()), mover.suspect()));
+                                   fastest_element(state_.domain()), suspect()));
+}
+
+// What laws find suspect in themselves comes first: the mover knows only that its step is stable.
+std::string Balance::suspect() const {
+  std::string all;
+  for (const auto& acting : state_.laws) {
+    const PairLaw& law = *acting.first;
+    const std::string one =
+        blaming(law, state_.moment, [&] { return law.suspect(state_.domain(), state_.moment.time_step); });
+    if (!one.empty()) all += one + "; or ";
+  }
+  return all + state_.mover().suspect();
 }
 
 // Where loads prescribe something, what else could move as a whole is named.

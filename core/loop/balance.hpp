@@ -55,6 +55,7 @@ class Balance {
   bool prescribes() const;
   Real farthest_prescribed() const;
   Real round_off() const;
+  std::string suspect() const;
 
   RunState& state_;
   Fresh& fresh_;

@@ -7,9 +7,11 @@
 #include <limits>
 
 #include "core/base/failure.hpp"
+#include "core/domain/nearest.hpp"
 #include "core/domain/rows.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/connect.hpp"
+#include "core/mechanics/rotation.hpp"
 
 namespace beadwork {
 
@@ -34,13 +36,46 @@ Real farthest_from(const Domain& domain, const Vec3& place) {
   return far;
 }
 
+/// Of two centres, or of a centre and the surface of a wall; infinite where it is another part of this that is touched.
+Real distance_in(const Domain& domain, const BondTable& table, Index row) {
+  const auto x = domain.elements().column("position").view<Vec3>();
+  const Near pair = table.near(row);
+  if (!table.is_of_walls()) return (x[pair.second] - x[pair.first]).norm();
+  const Walls::Pose wall = pose_of(domain, pair.second);
+  const Nearest<Real> found = nearest<Real>(domain.walls().facets(), pair.facet,
+                                            rotate_back(wall.orientation, Vec3(x[pair.first] - wall.position)));
+  return found.meets ? found.distance : std::numeric_limits<Real>::infinity();
+}
+
+Pairs pairs_of(const BondTable& table) {
+  Pairs pairs;
+  for (Index row = 0; row < table.size(); ++row) pairs.emplace_back(table.first()[row], table.second()[row]);
+  return pairs;
+}
+
+/// Pairs that contacts push apart as soon as a stage begins.
+struct DeepStarts {
+  Index pairs = 0;
+  Real deepest = 0;             ///< [m]
+  Index first = 0, second = 0;  ///< rows of the deepest pair
+
+  void note(Real overlap, Index i, Index j) {
+    ++pairs;
+    if (overlap > deepest) deepest = overlap, first = i, second = j;
+  }
+};
+
 }  // namespace
 
 void Contacts::begin_stage() {
   resume_stage();
   if (state_.stage().contacts.empty()) return;
+  std::map<const ContactLaw*, Pairs> before;
+  for (const ContactLaw* law : state_.stage().contacts)
+    before[law] = pairs_of(*state_.domain().find_family(law->family()));
   search();
   warn_of_two_laws();
+  warn_of_deep_starts(before);
 }
 
 void Contacts::resume_stage() {
@@ -55,9 +90,20 @@ void Contacts::follow() {
   search();
   if (are_old())
     throw PhysicsFailure(
-        fmt::format("an element moves by more than {:.3g} m, half of the skin of contacts, in one step of "
+        fmt::format("{} moves by more than {:.3g} m, half of the skin of contacts, in one step of "
                     "{:.3g} s: contacts would be missed; a wider 'skin' or a smaller time step finds them",
-                    narrowest_, state_.moment.time_step));
+                    fastest(), narrowest_, state_.moment.time_step));
+}
+
+// All have just been looked at where they are, so the fastest is the one that outruns its skin.
+std::string Contacts::fastest() const {
+  const Domain& domain = state_.domain();
+  const auto velocity = domain.elements().column("velocity").view<Vec3>();
+  Index row = 0;
+  for (Index k = 1; k < domain.size(); ++k)
+    if (velocity[k].squaredNorm() > velocity[row].squaredNorm()) row = k;
+  return fmt::format("element {}, at {:.3g} m/s,", domain.elements().column("id").view<Index>()[row],
+                     velocity[row].norm());
 }
 
 // The step to come is as long as the last one, or half again: velocities stand for it.
@@ -138,11 +184,6 @@ void Contacts::warn_of_two_laws() const {
     for (std::size_t other = 0; other < k; ++other) {
       const BondTable &one = *state_.domain().find_family(laws[other]->family()),
                       &two = *state_.domain().find_family(laws[k]->family());
-      const auto pairs_of = [](const BondTable& table) {
-        Pairs pairs;
-        for (Index row = 0; row < table.size(); ++row) pairs.emplace_back(table.first()[row], table.second()[row]);
-        return pairs;
-      };
       Pairs both;
       const Pairs a = pairs_of(one), b = pairs_of(two);
       std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
@@ -151,6 +192,52 @@ void Contacts::warn_of_two_laws() const {
             "{}: contacts '{}' and '{}' both act on {} pairs that are near one another, and their forces add up",
             laws[k]->at().where(), two.name(), one.name(), both.size()));
     }
+}
+
+// Pairs that a bond held until its family ended with the stage before.
+Pairs Contacts::released_pairs() const {
+  Pairs all;
+  const Domain& domain = state_.domain();
+  for (const BondTable* table : domain.families()) {
+    if (table->is_of_contacts()) continue;
+    for (Index row = 0; row < table->size(); ++row)
+      if (table->state()[row] < State::broken) all.emplace_back(table->first()[row], table->second()[row]);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Energy that no load brings. Of pairs that were bonded less is told, as their bonds had nothing against their overlap.
+void Contacts::warn_of_deep_starts(const std::map<const ContactLaw*, Pairs>& before) const {
+  const Domain& domain = state_.domain();
+  const auto radius = domain.elements().column("radius").view<Real>();
+  const auto id = domain.elements().column("id").view<Index>();
+  const Pairs were_bonded = released_pairs();
+  for (const auto* law : state_.stage().contacts) {
+    const BondTable& table = *domain.find_family(law->family());
+    const auto length = table.rows().column("contact-length").view<Real>();
+    DeepStarts released, deep;
+    for (Index row = 0; row < table.size(); ++row) {
+      const Index i = table.first()[row], j = table.second()[row];
+      if (has(before.at(law), {i, j})) continue;
+      const Real overlap = length[row] - distance_in(domain, table, row),
+                 smaller = table.is_of_walls() ? radius[i] : std::min(radius[i], radius[j]);
+      if (overlap > 1e-3 * smaller && has(were_bonded, {i, j}))
+        released.note(overlap, i, j);
+      else if (overlap > 0.1 * smaller)
+        deep.note(overlap, i, j);
+    }
+    const auto warn = [&](const DeepStarts& starts, const char* what) {
+      if (starts.pairs == 0) return;
+      log_.warn(
+          fmt::format("{}: stage '{}' begins with {} pairs that {}, and contacts '{}' push them apart at once: the "
+                      "deepest by {:.3g} m, elements {} and {}; this energy is brought by no load",
+                      law->at().where(), state_.stage().name, starts.pairs, what, law->family(), starts.deepest,
+                      id[starts.first], id[starts.second]));
+    };
+    warn(released, "overlap and whose bonds ended with the stage before");
+    warn(deep, "overlap by more than 10 % of the smaller radius");
+  }
 }
 
 void Contacts::search() {

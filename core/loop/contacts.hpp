@@ -26,6 +26,9 @@ class Contacts {
   std::vector<std::pair<Index, Index>> held_pairs() const;
   std::map<std::pair<Index, Index>, Real> broken_pairs() const;
   void warn_of_two_laws() const;
+  void warn_of_deep_starts(const std::map<const ContactLaw*, std::vector<std::pair<Index, Index>>>& before) const;
+  std::vector<std::pair<Index, Index>> released_pairs() const;
+  std::string fastest() const;
   void meet_and_part(ContactLaw& law, BondTable& table, const std::vector<std::pair<Index, Index>>& bonded);
   Real skin(const ContactLaw& law) const;
 

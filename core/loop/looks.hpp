@@ -16,7 +16,6 @@ class Seen final : public Sight {
   std::span<const Constraint> constraints() const override { return state_.held(); }
   void energies(EnergySink& sink) const override { balance_.energies(sink); }
   Real initial_energy() const override { return state_.initial_energy; }
-  CurveSink& curve(const CurvePlan& plan) override { return record_.curve(plan); }
   void frame(const FramePlan& plan) override { record_.frame(plan); }
 
  private:

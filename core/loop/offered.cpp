@@ -45,7 +45,8 @@ Verdict Offered::judge(Failure& failure, Domain& domain) {
   }
   judged_.insert(&failure);
   failure.judge(domain);
-  Verdict verdict = read_verdict(failure, domain, held_for(failure, domain));
+  const auto held = failure.judges_elements() ? std::span(held_for(failure, domain)) : std::span<const char>();
+  Verdict verdict = read_verdict(failure, domain, held);
   for (const auto& [column, aside] : of_others) {
     const auto told = column->view<Real>();
     for (std::size_t row = 0; row < aside.size(); ++row)
@@ -62,7 +63,7 @@ void Offered::note_broken() {
 // Found anew when a stage has begun and when something has broken.
 const std::vector<char>& Offered::held_for(const Failure& failure, const Domain& domain) {
   std::vector<char>& held = held_[&failure];
-  if (!failure.judges_elements() || !held.empty()) return held;
+  if (!held.empty()) return held;
   held.assign(static_cast<std::size_t>(domain.size()), 0);
   for (const std::string& family : failure.families()) {
     const BondTable& table = *domain.find_family(family);

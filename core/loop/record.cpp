@@ -17,18 +17,6 @@
 
 namespace beadwork {
 
-// A curve: the file, and the row that a watcher hands over.
-struct Record::OpenCurve final : CurveSink {
-  OpenCurve(Curve c, const Moment& m) : curve(std::move(c)), moment(m) {}
-  void row(std::span<const Real> values) override {
-    std::vector<Real> all{moment.time};
-    all.insert(all.end(), values.begin(), values.end());
-    curve.add(moment.step, all);
-  }
-  Curve curve;
-  const Moment& moment;
-};
-
 Record::Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, RunOptions& options, Fresh& fresh,
                Balance& balance)
     : state_(state),
@@ -40,9 +28,18 @@ Record::Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, R
       files_(file_sums(state.scene.files())),
       began_(Clock::now()),
       saved_(began_),
-      shown_(began_) {}
+      shown_(began_) {
+  take_rows(this);
+}
 
-Record::~Record() = default;
+Record::~Record() { take_rows(nullptr); }
+
+// Of all curves.
+void Record::take_rows(CurveSink* sink) const {
+  for (const auto& plugin : state_.scene.plugins)
+    if (const auto* watcher = as_kind<Watcher>(*plugin))
+      for (Curve* curve : watcher->curves()) curve->write_to(sink);
+}
 
 RunMeta Record::meta() const {
   RunMeta meta;
@@ -101,8 +98,8 @@ void Record::frame_anew() {
 // Rows that come after the checkpoint are dropped by a resume, be they of its very step.
 std::string Record::curve_ends() {
   for (auto& [name, curve] : curves_) {
-    curve->curve.sync();
-    curve_ends_[name] = curve->curve.end();
+    curve.sync();
+    curve_ends_[name] = curve.end();
   }
   nlohmann::json json = nlohmann::json::object();
   for (const auto& [name, end] : curve_ends_) json[name] = {end.length, end.first_line};
@@ -338,20 +335,25 @@ void Record::say_largest_uses(bool failed) const {
   }
 }
 
-CurveSink& Record::curve(const CurvePlan& plan) {
-  const auto there = curves_.find(plan.name);
-  if (there != curves_.end()) return *there->second;
-  if (!is_plain_name(plan.name))
-    throw std::invalid_argument(fmt::format("a curve wants {}, got \"{}\"", plain_name, plan.name));
+void Record::row(const std::string& curve, const CurvePlan& plan, std::span<const Real> values) {
+  auto there = curves_.find(curve);
+  if (there == curves_.end()) there = curves_.emplace(curve, begun(curve, plan)).first;
+  std::vector<Real> all{state_.moment.time};
+  all.insert(all.end(), values.begin(), values.end());
+  there->second.add(state_.moment.step, all);
+}
+
+CurveFile Record::begun(const std::string& curve, const CurvePlan& plan) {
+  if (!is_plain_name(curve))
+    throw std::invalid_argument(fmt::format("a curve wants {}, got \"{}\"", plain_name, curve));
   std::vector<CurveColumn> columns{{"time", "s"}};
   for (const auto& [name, unit] : plan.columns) columns.push_back({name, unit});
-  const auto file = folder_.curve(plan.name);
+  const auto file = folder_.curve(curve);
   folder_.claim(file);
   folder_.claim(std::filesystem::path(file).replace_extension(".json"));
-  auto made = std::make_unique<OpenCurve>(options_.resume ? Curve::resume(file, columns) : Curve::fresh(file, columns),
-                                          state_.moment);
-  made->curve.write_sidecar(curve_json(plan));
-  return *(curves_[plan.name] = std::move(made));
+  CurveFile made = options_.resume ? CurveFile::resume(file, columns) : CurveFile::fresh(file, columns);
+  made.write_sidecar(curve_json(plan));
+  return made;
 }
 
 namespace {

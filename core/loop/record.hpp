@@ -7,7 +7,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/io/checkpoint.hpp"
-#include "core/io/curve.hpp"
+#include "core/io/curve_file.hpp"
 #include "core/io/recorder.hpp"
 #include "core/io/run_folder.hpp"
 #include "core/loop/balance.hpp"
@@ -30,19 +30,19 @@ struct RunFigures {
   QualityFigures quality;
 };
 
-class Record {
+class Record final : public CurveSink {
  public:
   using Clock = std::chrono::steady_clock;
 
   Record(RunState& state, const Catalogue& catalogue, RunFolder& folder, RunOptions& options, Fresh& fresh,
          Balance& balance);
-  ~Record();
+  ~Record() override;
 
   /// Takes up the newest checkpoint; what is refused here leaves the folder as it was.
   void load();
   /// Opens run.h5, and cuts what comes after the checkpoint.
   void open();
-  CurveSink& curve(const CurvePlan& plan);
+  void row(const std::string& curve, const CurvePlan& plan, std::span<const Real> values) override;
   void frame(const FramePlan& plan);
   /// The frame of the step of the checkpoint, as it was then: what looked after it may have added to it.
   void frame_anew();
@@ -64,6 +64,8 @@ class Record {
   RunFigures& figures() { return figures_; }
 
  private:
+  void take_rows(CurveSink* sink) const;
+  CurveFile begun(const std::string& curve, const CurvePlan& plan);
   RunMeta meta() const;
   std::vector<std::filesystem::path> curves_to_cut() const;
   std::string curve_ends();
@@ -84,8 +86,7 @@ class Record {
   Balance& balance_;
   RunFigures figures_;
   FileSums files_;  ///< that the deck names for data
-  struct OpenCurve;
-  std::map<std::string, std::unique_ptr<OpenCurve>> curves_;
+  std::map<std::string, CurveFile> curves_;
   std::map<std::string, CurveEnd> curve_ends_;  ///< when the newest checkpoint was written
   FrameNow frame_now_;
   std::optional<Recorder> recorder_;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-
 #include <stdexcept>
 
 namespace beadwork {
@@ -23,14 +23,15 @@ struct Stretch {
 }
 
 // Each stretch of rows by itself, then the stretches in order: threads change nothing.
-void read(const Domain& domain, BondTable* table, View<const Real> utilisation, const std::vector<Stretch>& stretches,
+template <class Use>
+void read(const Domain& domain, BondTable* table, const std::vector<Stretch>& stretches, const Use& use_of,
           Verdict& all) {
   std::vector<Verdict> parts(stretches.size());
   each_shared(static_cast<Index>(stretches.size()), [&](Index s) {
     Verdict part;
     const Stretch& stretch = stretches[static_cast<std::size_t>(s)];
     for (Index row = stretch.begin; row < stretch.end; ++row) {
-      const Real use = utilisation[row];
+      const Real use = use_of(row);
       if (use > part.highest.utilisation) part.highest = {table, row, use};
       if (use < 1) continue;
       part.fallen.push_back({table, row, use});
@@ -47,24 +48,28 @@ void read(const Domain& domain, BondTable* table, View<const Real> utilisation, 
 
 }  // namespace
 
-Verdict read_verdict(const Failure& failure, Domain& domain, const std::vector<char>& held) {
+Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const char> held) {
   const std::string& name = failure.utilisation.field().name;
   Verdict all;
   std::vector<Stretch> stretches;
   if (failure.judges_elements()) {
     const auto utilisation = domain.elements().column(name).view<Real>();
-    for (Index row = 0; row < domain.size(); ++row)
-      if (!held[static_cast<std::size_t>(row)]) utilisation[row] = 0;
     for (Index row = 0; row < domain.size(); row += 1024)
       stretches.push_back({row, std::min(row + 1024, domain.size())});
-    read(domain, nullptr, domain.elements().column(name).view<Real>(), stretches, all);
+    const auto use_of = [&](Index row) {
+      if (!held[static_cast<std::size_t>(row)]) utilisation[row] = 0;
+      return Real(utilisation[row]);
+    };
+    read(domain, nullptr, stretches, use_of, all);
     return all;
   }
   for (const std::string& family : failure.families()) {
     BondTable* table = domain.find_family(family);
     stretches.clear();
     for (const Chunk& chunk : table->chunks()) stretches.push_back({chunk.begin, chunk.live_end});
-    read(domain, table, table->rows().column(name).view<Real>(), stretches, all);
+    const auto utilisation = table->rows().column(name).view<Real>();
+    read(
+        domain, table, stretches, [&](Index row) { return Real(utilisation[row]); }, all);
   }
   return all;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What a criterion has found, read off the utilisations that it has filled.
 
+#include <span>
 #include <vector>
 
 #include "core/plugin/failure.hpp"
@@ -19,9 +20,9 @@ struct Verdict {
   Judged highest;              ///< row -1 where nothing is under load
 };
 
-/// Of elements only those count that a bond which may break holds: the others have nothing to lose, and their utilisation
-/// is set to 0. `held` tells of each. Throws std::runtime_error, naming the bond or the element, where a utilisation is no
-/// number.
-Verdict read_verdict(const Failure& failure, Domain& domain, const std::vector<char>& held);
+/// Of elements only those count that a bond which may break holds: the others have nothing to lose, and their
+/// utilisation is set to 0. `held` tells of each; it is not looked at where bonds are judged. Throws std::runtime_error,
+/// naming the bond or the element, where a utilisation is no number.
+Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const char> held);
 
 }  // namespace beadwork

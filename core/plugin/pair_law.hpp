@@ -74,6 +74,9 @@ class PairLaw : public Plugin {
   virtual bool acts_when_broken() const { return false; }
   /// Longest step by which what it does is still resolved [s], beside the limit that its stiffness sets.
   virtual Real longest_step(const Domain&) const { return std::numeric_limits<Real>::infinity(); }
+  /// What is probably wrong with it, at time steps of that length, where the balance has an excess of energy that no
+  /// work accounts for; "" where nothing is.
+  virtual std::string suspect(const Domain&, Real /*time_step*/) const { return ""; }
   /// True if its forces are part of the stress of an element, where no deck says which families are.
   virtual bool is_in_stress() const { return true; }
 

@@ -3,31 +3,14 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/domain/constraint.hpp"
 #include "core/domain/moment.hpp"
+#include "core/plugin/curve.hpp"
 #include "core/plugin/plugin.hpp"
 
 namespace beadwork {
-
-/// A table that grows by a row now and then and ends up as a CSV file.
-class CurveSink {
- public:
-  virtual ~CurveSink() = default;
-  virtual void row(std::span<const Real> values) = 0;
-};
-
-/// What the columns of a curve are, and how it is drawn.
-struct CurvePlan {
-  std::string name;
-  std::vector<std::pair<std::string, std::string>> columns;  ///< (name, unit), behind step and time
-  std::string title;
-  std::string x;  ///< column on the abscissa; empty is time
-  std::vector<std::string> y;
-  std::string kind;  ///< "ledger" for an energy balance
-};
 
 /// In the place of the name of a field: all that there are.
 inline constexpr const char* every_field = "all";
@@ -49,7 +32,6 @@ class Sight {
   virtual void energies(EnergySink& sink) const = 0;
   /// Energy that was there without any work: when the run began, and what the start of a stage has brought [J].
   virtual Real initial_energy() const = 0;
-  virtual CurveSink& curve(const CurvePlan& plan) = 0;
   virtual void frame(const FramePlan& plan) = 0;
 };
 
@@ -73,6 +55,12 @@ class Watcher : public Plugin {
   /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
   virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}
   virtual void look(Sight& sight) = 0;
+
+  const std::vector<Curve*>& curves() const { return curves_; }
+
+ private:
+  friend class Curve;
+  std::vector<Curve*> curves_;
 };
 
 }  // namespace beadwork

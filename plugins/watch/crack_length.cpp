@@ -41,10 +41,23 @@ class CrackLength final : public Watcher {
        .doc = "Crack length over the whole length that theory predicts, as a formula in 'displacement'",
        .optional = true,
        .variables = {{"displacement", find_unit("m")->dimension}}}};
+  Curve curve{this,
+              name,
+              {.columns = {{"displacement", "m"},
+                           {"crack length open", "1"},
+                           {"crack length damaged", "1"},
+                           {"process zone", "m"}},
+               .title = "Crack length over the whole length",
+               .y = {"crack length open", "crack length damaged", "process zone"}}};
   Reads<Real> damage{this, field::damage};
   Reads<Real> area{this, {"area", On::bonds, "m2", "Area that a contact stands for"}};
 
   std::vector<std::string> families() const override { return {*of}; }
+
+  void choose() override {
+    curve.plan.x = against.given() ? "displacement" : "time";
+    if (reference.given()) curve.plan.columns.push_back({"reference", "1"});
+  }
 
   void check(Complaints& complaints) const override {
     const char* course = "the crack runs from 'from' over 'start' to 'end'";
@@ -80,21 +93,11 @@ class CrackLength final : public Watcher {
     const Real by_open = *start - *from + per_area * open;
     const Real by_damage = *start - *from + per_area * damaged;
     std::vector<Real> row{driven(sight), by_open / length, by_damage / length, by_damage - by_open};
-    CurvePlan plan{.name = *name,
-                   .columns = {{"displacement", "m"},
-                               {"crack length open", "1"},
-                               {"crack length damaged", "1"},
-                               {"process zone", "m"}},
-                   .title = "Crack length over the whole length",
-                   .x = against.given() ? "displacement" : "time",
-                   .y = {"crack length open", "crack length damaged", "process zone"},
-                   .kind = ""};
     if (reference.given()) {
       const Real displacement = row[0];
-      plan.columns.push_back({"reference", "1"});
       row.push_back(std::min<Real>(1, (*reference)({&displacement, 1})));
     }
-    sight.curve(plan).row(row);
+    curve.row(row);
   }
 
  private:

@@ -8,20 +8,18 @@ class EnergyLedger final : public Watcher {
   static constexpr const char* about =
       "Energy balance over time: work, stored, kinetic and dissipated energy, and the residual";
   Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "energy"}};
+  Curve curve{this,
+              name,
+              {.columns = {{"work", "J"}, {"stored", "J"}, {"kinetic", "J"}, {"dissipated", "J"}, {"residual", "J"}},
+               .title = "Energy balance",
+               .x = "time",
+               .y = {"work", "stored", "kinetic", "dissipated", "residual"},
+               .kind = "ledger"}};
 
   void look(Sight& sight) override {
     EnergySums sums;
     sight.energies(sums);
-    const Real row[] = {sums.worked, sums.in_bonds, sums.in_motion, sums.taken,
-                        sight.initial_energy() - sums.beyond_work()};
-    sight
-        .curve({.name = *name,
-                .columns = {{"work", "J"}, {"stored", "J"}, {"kinetic", "J"}, {"dissipated", "J"}, {"residual", "J"}},
-                .title = "Energy balance",
-                .x = "time",
-                .y = {"work", "stored", "kinetic", "dissipated", "residual"},
-                .kind = "ledger"})
-        .row(row);
+    curve.row({sums.worked, sums.in_bonds, sums.in_motion, sums.taken, sight.initial_energy() - sums.beyond_work()});
   }
 };
 

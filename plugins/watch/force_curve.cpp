@@ -24,6 +24,12 @@ class ForceCurve final : public Watcher {
                             .doc = "Force that theory predicts, as a formula in 'displacement'; drawn beside the curve",
                             .optional = true,
                             .variables = {{"displacement", find_unit("m")->dimension}}}};
+  Curve curve{this, name, {.columns = {{"displacement", "m"}, {"force", "N"}}, .x = "displacement", .y = {"force"}}};
+
+  void choose() override {
+    curve.plan.title = *title;
+    if (reference.given()) curve.plan.columns.push_back({"reference", "N"});
+  }
 
   void check_stages(std::span<const Constraint> constraints, Complaints& complaints) const override {
     std::set<std::string> sets, axes;
@@ -50,18 +56,9 @@ class ForceCurve final : public Watcher {
       force += c.reaction;
       displacement += c.at(sight.moment().time).displacement;
     }
-    CurvePlan plan{.name = *name,
-                   .columns = {{"displacement", "m"}, {"force", "N"}},
-                   .title = *title,
-                   .x = "displacement",
-                   .y = {"force"},
-                   .kind = ""};
     std::vector<Real> row{displacement, force};
-    if (reference.given()) {
-      plan.columns.push_back({"reference", "N"});
-      row.push_back((*reference)({&displacement, 1}));
-    }
-    sight.curve(plan).row(row);
+    if (reference.given()) row.push_back((*reference)({&displacement, 1}));
+    curve.row(row);
   }
 };
 

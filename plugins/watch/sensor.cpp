@@ -48,6 +48,7 @@ class Sensor final : public Watcher {
        .optional = true,
        .variables = {{"value", {}}}}};
   Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "sensor"}};
+  Curve curve{this, name, {}};
 
   std::vector<std::string> families() const override {
     return bonds.given() ? std::vector<std::string>{*bonds} : std::vector<std::string>{};
@@ -58,24 +59,21 @@ class Sensor final : public Watcher {
       complaints.error(bonds.at(), "'set' is of elements, 'bonds' of bonds: a sensor looks at one of them");
   }
 
+  void choose() override {
+    const std::string over = set.given() ? *set : bonds.given() ? *bonds : "all";
+    curve.plan.columns = {{*reduce, *reduce == "count" ? "1" : ""}};  // the unit of the field is seen at the first look
+    curve.plan.title = fmt::format("{}: {} over {}", field->front(), *reduce, over);
+    curve.plan.y = {*reduce};
+  }
+
   void look(Sight& sight) override {
     values_.clear();
     unit_ = "1";
     gather(sight.domain());
     if (where.given()) std::erase_if(values_, [&](Real value) { return (*where)({&value, 1}) != 1; });
     const Real told = reduced();
-    const bool counts = *reduce == "count";
-    sight
-        .curve({.name = *name,
-                .columns = {{*reduce, counts ? "1" : unit_}},
-                .title = fmt::format("{}: {} over {}", field->front(), *reduce,
-                                     set.given()     ? *set
-                                     : bonds.given() ? *bonds
-                                                     : "all"),
-                .x = "",
-                .y = {*reduce},
-                .kind = ""})
-        .row({&told, 1});
+    if (*reduce != "count") curve.plan.columns.front().second = unit_;
+    curve.row({told});
   }
 
  private:

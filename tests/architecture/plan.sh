@@ -17,6 +17,7 @@ says "time step $(value time_step | awk '{ printf "%.4g", $1 }') s, limited by"
 says "bonds of 'beam'                       1"
 for watcher in force-curve energy-ledger snapshot; do says "s per look of watch.$watcher"; done
 grep -qE "steps at most, about [0-9.e-]+ s, of which [0-9.e-]+ s for looks" "$work/plan" || fail "no time of the loop and its looks"
+grep -qE "^  curves/force.csv +force-curve right: displacement \[m\], force \[N\]" "$work/plan" || fail "no curve is listed"
 says "keeps: verlet; reads: cohesive-beam"
 says "columns that cohesive-beam beam offers and nobody reads: section-radius, bending-moment, twisting-moment"
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "core/io/checkpoint.hpp"
-#include "core/io/curve.hpp"
+#include "core/io/curve_file.hpp"
 #include "core/io/packing_file.hpp"
 #include "core/io/recorder.hpp"
 #include "tests/support/bonded_bar.hpp"
@@ -52,7 +52,7 @@ void make(const fs::path& root, bool finished) {
                   {"0.1.0", "5e88", about.resolved, {1e-5, 100, 1e-7, 0, 0, 0}, 7, {{"packing", about.packing}}});
   folder.claim(folder.curve("force"));
   folder.claim(root / "curves/force.json");
-  Curve curve = Curve::fresh(folder.curve("force"), {{"time", "s"}, {"force", "N"}});
+  CurveFile curve = CurveFile::fresh(folder.curve("force"), {{"time", "s"}, {"force", "N"}});
   for (std::int64_t step = 0; step <= 100; step += 10)
     curve.add(step, std::vector<Real>{1e-7 * static_cast<Real>(step), 2});
   curve.write_sidecar("{\"title\": \"Force\", \"x\": \"time\", \"y\": [\"force\"]}\n");

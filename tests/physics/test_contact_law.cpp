@@ -230,6 +230,56 @@ TEST(Contact, leaves_pairs_alone_that_a_bond_holds) {
   EXPECT_EQ(run.velocity[1][0], 0);
 }
 
+// ---- what is warned of
+
+// Three steps, of which 'safety' makes 3.3, resolve a collision badly, and are stable all the same.
+TEST(Contact, with_too_few_steps_is_named_where_the_balance_has_an_excess) {
+  const auto run = [](int steps) {
+    return run_deck(deck(sphere("a", -1.01e-3, 0, 0) + sphere("b", 1.01e-3, 0, 0), penalty(steps),
+                         velocity("a", {1, 0, 0}) + velocity("b", {-1, 0, 0}), "300"));
+  };
+  const DeckRun coarse = run(3), fine = run(20);
+  ASSERT_EQ(coarse.warned.size(), 1u);
+  EXPECT_THAT(coarse.warned[0], ::testing::HasSubstr("that no work accounts for"));
+  EXPECT_THAT(coarse.warned[0],
+              ::testing::HasSubstr("; contacts 'c' have 3.3 time steps in their shortest collision, which is few"));
+  EXPECT_THAT(fine.warned, ::testing::IsEmpty());
+}
+
+TEST(Contact, names_the_element_that_outruns_the_skin_and_its_speed) {
+  const DeckRun run = run_deck(deck(sphere("a", 0, 0, 0) + sphere("b", 5e-3, 0, 0), penalty(20),
+                                    velocity("b", {-500, 0, 0}), "300", "", "", R"(time-step="1 us")"));
+  EXPECT_THAT(run.failure,
+              ::testing::HasSubstr("element 1, at 500 m/s, moves by more than 0.00015 m, half of the skin"));
+}
+
+/// Two pairs that overlap by 0.15 and 0.05 of a radius, bonded in the first stage or not at all.
+std::string two_pairs(const std::string& bond) {
+  return R"(<scene><fill>)" + sphere("all", 0, 0, 0) + sphere("all", 1.85e-3, 0, 0) + sphere("all", 0, 9e-3, 0) +
+         sphere("all", 1.95e-3, 9e-3, 0) + R"(</fill>
+    <contact><penalty name="c" between="all all" stiffness="1 kN/m"/></contact><move><verlet time-step="1 us"/></move>
+    <stage name="bonded" until="5">)" +
+         bond + R"(</stage><stage name="loose" until="5"/></scene>)";
+}
+
+TEST(Contact, warns_of_pairs_that_overlap_deeply_where_it_begins_and_once) {
+  const DeckRun run = run_deck(two_pairs(""));
+  ASSERT_EQ(run.warned.size(), 1u);
+  EXPECT_THAT(run.warned[0],
+              ::testing::HasSubstr("stage 'bonded' begins with 1 pairs that overlap by more than 10 % of "
+                                   "the smaller radius, and contacts 'c' push them apart at once: the "
+                                   "deepest by 0.00015 m, elements 0 and 1; this energy is brought by no"));
+}
+
+TEST(Contact, warns_of_pairs_whose_bonds_ended_with_their_stage_and_that_overlap) {
+  const DeckRun run = run_deck(two_pairs(R"(<bond><spring name="s" between="all all" young="1 MPa"/></bond>)"));
+  ASSERT_EQ(run.warned.size(), 1u);
+  EXPECT_THAT(run.warned[0],
+              ::testing::HasSubstr("stage 'loose' begins with 2 pairs that overlap and whose bonds ended "
+                                   "with the stage before, and contacts 'c' push them apart at once: the "
+                                   "deepest by 0.00015 m, elements 0 and 1;"));
+}
+
 // ---- how pairs are found
 
 std::string gas(const std::string& skin) {

@@ -67,8 +67,8 @@ class Session {
   }
   /// A row of the curve, whose one value tells the step.
   void note(const std::string& curve) {
-    record.curve({.name = curve, .columns = {{"twice", "1"}}, .title = "Twice", .x = "", .y = {"twice"}, .kind = ""})
-        .row(std::array{2 * static_cast<Real>(parts.state.moment.step)});
+    record.row(curve, {.columns = {{"twice", "1"}}, .title = "Twice", .y = {"twice"}},
+               std::array{2 * static_cast<Real>(parts.state.moment.step)});
   }
   void frame(const std::string& field) { record.frame({.fields = {field}}); }
 

@@ -1,20 +1,11 @@
-// The report of a run: shows what is there, says what is not, and lets no text of a deck become markup.
-#include "workbench/report/report.hpp"
+// The report of a run: shows what is there, and lets no text of a deck become markup.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "core/base/failure.hpp"
-#include "core/domain/vocabulary.hpp"
-#include "core/io/recorder.hpp"
+#include "tests/support/reported_run.hpp"
 #include "workbench/report/axes.hpp"
 #include "workbench/report/chart.hpp"
 #include "workbench/report/table.hpp"
@@ -23,87 +14,8 @@
 namespace beadwork {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
-
-void write(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file) << text;
-}
-
-std::string read(const fs::path& file) {
-  std::ostringstream out;
-  out << std::ifstream(file).rdbuf();
-  return out.str();
-}
-
-/// Two layers of six elements, a cohesive interface between them, one bond of which has broken and one
-/// softens.
-void make_specimen(Domain& domain) {
-  domain.add_elements(12);
-  const auto position = domain.elements().column("position").view<Vec3>();
-  const auto radius = domain.elements().column("radius").view<Real>();
-  for (Index i = 0; i < 12; ++i) {
-    position.set(i, Vec3(i % 6 * 1e-3, 0, i < 6 ? 0 : 1e-3));
-    radius[i] = 0.5e-3;
-  }
-  domain.sets()["lower"] = {0, 1, 2, 3, 4, 5};
-  BondTable& interface = domain.add_family("interface");
-  interface.create({{0, 6}, {1, 7}, {2, 8}, {3, 9}, {4, 10}, {5, 11}}, 0);
-}
-
-void record_frames(const fs::path& folder, Domain& domain) {
-  RunFolder run = RunFolder::fresh(folder, false);
-  RunMeta meta;
-  meta.name = "in the record";
-  Recorder recorder = Recorder::fresh(run, meta, domain);
-  BondTable& interface = *domain.find_family("interface");
-  FrameRequest request;
-  request.bonds.push_back({&interface, "cohesive-contact", {}});
-  recorder.write({0, 0, 0}, request, domain);
-  interface.state()[0] = State::broken;
-  interface.state()[1] = State::softening;
-  domain.breaks().breaks.push_back({5e-4, 50, 0, 0, domain.breaks().mode("normal"), Vec3(0, 0, 5e-4), 1e-3});
-  recorder.write({100, 1e-3, 0}, request, domain);
-}
-
-class Report : public testing::Test {
- protected:
-  void SetUp() override {
-    folder = fs::temp_directory_path() / ("beadwork-report-" + std::to_string(getpid()));
-    fs::remove_all(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  void make_run() {
-    Domain domain;
-    make_specimen(domain);
-    record_frames(folder, domain);
-    write(folder / "summary.json",
-          R"({"name": "small <b>& bold", "status": "done", "exit_reason": "time 1 ms reached",
-      "elements": 12, "bonds": {"interface": 6}, "steps": 100, "time_step": 1e-5, "wall_seconds": 83,
-      "bond_updates_per_second": 21.5e6, "breaks": {"normal": 1}, "something_new": 4.25,
-      "utilisation": {"fail.bond-stress": {"of": "interface", "mode": "axial-bending", "largest": 0.8731, "step": 80, "time": 8e-4,
-                      "bond": 3, "elements": [3, 9], "place": [0.003, 0, 0.0005]},
-                      "fail.bond-stress.2": {"of": "<i>", "mode": "axial", "largest": 0},
-                      "fail.virial-stress": {"of": "resin glue", "mode": "virial-hydrostatic", "largest": 1.038, "step": 90,
-                      "time": 9e-4, "element": 4, "place": [0.004, 0, 0]}},
-      "packing": [{"density": 0.615, "radius_histogram": {"edges": [1e-4, 2e-4, 3e-4], "counts": [7, 5]}}]})");
-    write(folder / "resolved.xml", "<scene name=\"small\"><fill/></scene><script>alert(1)</script>");
-    write(folder / "run.log", "first line\nlast line\n");
-    write(folder / "curves/force.csv",
-          "step [1],time [s],displacement [m],force [N],reference Eq (10) [N]\n"
-          "0,0,0,0,0\n50,5e-4,1e-4,30,31\n100,1e-3,2e-4,60,59\n");
-    write(folder / "curves/force.json", R"({"title": "Load", "x": "displacement", "y": ["force"]})");
-    write(folder / "curves/energy.csv",
-          "step [1],time [s],external work [J],elastic [J],kinetic [J]\n0,0,0,0,0\n100,1e-3,2,1.5,0.48\n");
-  }
-
-  std::string page() { return read(write_report(folder)); }
-
-  fs::path folder;
-};
 
 TEST_F(Report, shows_the_facts_with_their_units) {
   make_run();
@@ -254,124 +166,6 @@ TEST_F(Report, the_same_run_gives_the_same_bytes) {
   EXPECT_EQ(once, page());
 }
 
-TEST_F(Report, without_a_record_it_says_so_and_shows_the_rest) {
-  make_run();
-  fs::remove(folder / "run.h5");
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("There is no run.h5, so there are no pictures"));
-  EXPECT_THAT(html, HasSubstr("<figcaption>Load</figcaption>"));
-  EXPECT_THAT(html, Not(HasSubstr("<img")));
-}
-
-TEST_F(Report, a_damaged_record_is_told_from_a_missing_one) {
-  make_run();
-  write(folder / "run.h5", "this is not HDF5");
-  EXPECT_THAT(page(), HasSubstr("run.h5 cannot be read"));
-}
-
-TEST_F(Report, a_frame_whose_file_is_lost_is_left_out) {
-  make_run();
-  std::vector<fs::path> files;
-  for (const auto& file : fs::directory_iterator(folder / "frames")) files.push_back(file);
-  ASSERT_EQ(files.size(), 2U);
-  fs::remove(std::min(files[0], files[1]));  // the first: displacements are then counted from the second
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("1 frame of run.h5 cannot be read"));
-  EXPECT_THAT(html, HasSubstr("<img"));
-}
-
-TEST_F(Report, a_row_that_a_kill_cut_off_is_dropped_and_said) {
-  make_run();
-  write(folder / "curves/force.csv", "step [1],time [s],force [N]\n0,0,0\n1,1e-3,5\n2,2e-3,7");
-  EXPECT_THAT(page(), HasSubstr("In curves/force.csv, 1 row was cut off"));
-}
-
-TEST_F(Report, a_run_that_was_killed_is_reported_from_what_it_had_written) {
-  make_run();
-  fs::remove(folder / "summary.json");
-  fs::remove(folder / "resolved.xml");
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("<span class=\"badge other\">unfinished</span>"));
-  EXPECT_THAT(html, HasSubstr("it is still going on, or it was killed"));
-  EXPECT_THAT(html, HasSubstr("<h1>in the record</h1>"));
-  EXPECT_THAT(html, HasSubstr("<img"));
-}
-
-TEST_F(Report, an_interrupted_run_says_why_it_ended) {
-  write(folder / "summary.json",
-        R"({"status": "interrupted", "exit_reason": "SIGINT; resume with: beadwork run --resume"})");
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("badge interrupted"));
-  EXPECT_THAT(html, HasSubstr("resume with"));
-  EXPECT_THAT(html, HasSubstr("There are no curves"));
-}
-
-TEST_F(Report, one_bad_number_is_left_out_and_the_rest_is_drawn) {
-  make_run();
-  write(folder / "curves/force.csv",
-        "step [1],time [s],displacement [m],force "
-        "[N]\n0,0,0,0\n50,5e-4,1e-4,nan\n60,6e-4,1.2e-4,1e308\n70,7e-4,1.4e-4,1e999\n100,1e-3,2e-4,60\n");
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("In curves/force.csv, 3 numbers are infinite, undefined or too large to be drawn"));
-  EXPECT_THAT(html, HasSubstr(">60</text>"));  // the axis is that of what is drawn
-  EXPECT_THAT(html, Not(HasSubstr("10³⁰⁸")));
-  EXPECT_THAT(html, HasSubstr("1 bond broke"));
-}
-
-TEST_F(Report, an_element_without_a_place_does_not_cost_the_picture) {
-  for (const double bad : {std::nan(""), HUGE_VAL, 1e308, 1e30, 50.0}) {
-    fs::remove_all(folder);
-    {
-      Domain domain;
-      make_specimen(domain);
-      domain.elements().column("position").view<Vec3>().set(3, Vec3(0, bad, 0));
-      record_frames(folder, domain);
-    }
-    const std::string html = page();
-    EXPECT_THAT(html, HasSubstr("In the frame of step 100, 1 element has no place or size that can be drawn")) << bad;
-    EXPECT_THAT(html, HasSubstr("<img src=\"data:image/png;base64,iVBORw0KGgo")) << bad;
-    EXPECT_THAT(html, HasSubstr("<b>1 mm</b></i>")) << bad;  // the scale bar of the specimen without it
-  }
-}
-
-TEST_F(Report, what_cannot_be_read_costs_its_own_part_only) {
-  make_run();
-  write(folder / "summary.json", std::string(1000000, '['));
-  write(folder / "curves/force.json", std::string(1000000, '['));
-  fs::remove(folder / "run.log");
-  fs::create_symlink("/etc/passwd", folder / "run.log");
-  const std::string html = page();
-  EXPECT_THAT(html, HasSubstr("summary.json is not readable as JSON"));
-  EXPECT_THAT(html, HasSubstr("force.json is not readable as JSON"));
-  EXPECT_THAT(html, HasSubstr("<li>run.log was left out: cannot read"));
-  EXPECT_THAT(html, HasSubstr("it is a link"));
-  EXPECT_THAT(html, Not(HasSubstr("root:")));
-  EXPECT_THAT(html, HasSubstr("1 bond broke"));
-}
-
-TEST_F(Report, a_page_of_somebody_else_is_left_alone) {
-  make_run();
-  write(folder / "report.html", "mine");
-  EXPECT_THROW(write_report(folder), DeckFailure);
-  EXPECT_EQ(read(folder / "report.html"), "mine");
-  fs::remove(folder / "report.html");
-  write_report(folder);
-  EXPECT_NO_THROW(write_report(folder));
-}
-
-TEST_F(Report, where_no_list_tells_whose_a_page_is_only_one_of_ours_is_replaced) {
-  write(folder / "summary.json", R"({"status": "done"})");
-  write(folder / "report.html", "mine");
-  EXPECT_THROW(write_report(folder), DeckFailure);
-  EXPECT_EQ(read(folder / "report.html"), "mine");
-  fs::remove(folder / "report.html");
-  fs::create_symlink("nowhere", folder / "report.html");
-  EXPECT_THROW(write_report(folder), DeckFailure);
-  fs::remove(folder / "report.html");
-  write_report(folder);
-  EXPECT_NO_THROW(write_report(folder));
-}
-
 class BatchReport : public Report {
  protected:
   /// A table of runs k = 1, 2, ..., each with a curve of its own height.
@@ -446,17 +240,6 @@ TEST_F(BatchReport, a_page_of_somebody_else_is_left_alone) {
   write(folder / "report.html", "mine");
   EXPECT_THROW(page(), DeckFailure);
   EXPECT_EQ(read(folder / "report.html"), "mine");
-}
-
-TEST_F(Report, a_folder_that_is_no_run_is_refused) {
-  EXPECT_THROW(write_report(folder), DeckFailure);
-  fs::create_directories(folder);
-  try {
-    write_report(folder);
-    FAIL();
-  } catch (const DeckFailure& failure) {
-    EXPECT_THAT(failure.what(), HasSubstr("is not the folder of a run"));
-  }
 }
 
 TEST(ReportTable, a_heading_has_a_name_and_a_unit) {

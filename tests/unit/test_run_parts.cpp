@@ -213,6 +213,24 @@ TEST(Breaking, shows_to_readers_the_largest_of_what_several_criteria_find) {
   EXPECT_EQ(use[2], 0.6);
 }
 
+// The fourth flies by itself.
+TEST(Breaking, finds_no_utilisation_of_an_element_that_has_nothing_to_lose) {
+  Parts parts(R"(<scene><fill><lattice set="row" count="3 1 1" radius="1 mm" density="2000 kg/m^3"/>
+      <element set="alone" at="20 0 0 mm" radius="1 mm" density="2000 kg/m^3"/></fill>
+    <bond><spring name="s" between="row row" young="1 MPa"/></bond>
+    <fail><picky-of-elements of="s"/></fail><move>)" +
+                  std::string(verlet) + "</move></scene>",
+              own());
+  parts.begin();
+  PickyOfElements::found = {0.2, 0.9, 0.4, 7};
+  parts.breaking.judge();
+  EXPECT_TRUE(parts.state.domain().breaks().breaks.empty());
+  EXPECT_EQ(parts.state.uses[0].second.element, 1);
+  const auto use = parts.state.domain().elements().column(field::element_utilisation.name).view<Real>();
+  EXPECT_EQ(use[1], 0.9);
+  EXPECT_EQ(use[3], 0);
+}
+
 TEST(Breaking, blames_a_criterion_that_finds_no_number) {
   Parts parts(chain_with(spring, R"(<picky of="s" name="one"/>)", verlet), own());
   parts.begin();
@@ -274,7 +292,6 @@ class NowhereToWrite final : public Sight {
   std::span<const Constraint> constraints() const override { return parts_.state.held(); }
   void energies(EnergySink&) const override {}
   Real initial_energy() const override { return 0; }
-  CurveSink& curve(const CurvePlan&) override { throw std::logic_error("no curve here"); }
   void frame(const FramePlan&) override {}
 
  private:

@@ -2,9 +2,11 @@
 
 #include "core/domain/table.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdint>
 #include <fstream>
 
@@ -60,6 +62,19 @@ TEST(View, tells_vectors_and_lends_numbers) {
   static_assert(!its_row_can_be_added_to<View<Vec3>>, "what is told is a copy: adding to it would be lost");
   static_assert(its_row_can_be_set<View<Real>>);
   static_assert(!its_row_can_be_set<View<const Real>>);
+}
+
+TEST(View, adds_to_every_component_of_a_tensor) {
+  Table table(Table::Layout::planes);
+  Column& column = table.add({"stress", On::bonds, Type::sym3, "Pa", "Stress", ""});
+  table.resize(3);
+  const auto stress = column.view<Sym3>();
+  stress.set(1, {1, 2, 3, 4, 5, 6});
+  stress.add(1, {10, 20, 30, 40, 50, 60});
+  const Sym3 sum = stress[1];
+  EXPECT_THAT((std::array{sum.xx, sum.xy, sum.xz, sum.yy, sum.yz, sum.zz}),
+              ::testing::ElementsAre(11, 22, 33, 44, 55, 66));
+  EXPECT_EQ(Sym3(stress[0]).zz + Sym3(stress[2]).xx, 0);
 }
 
 TEST(Table, holds_its_numbers_in_a_line_of_more_than_2_to_the_31_bytes) {

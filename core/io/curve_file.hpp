@@ -27,13 +27,13 @@ struct CurveEnd {
   std::string first_line;     ///< names and units of the columns
 };
 
-class Curve {
+class CurveFile {
  public:
   /// Writes the first line. The step comes first by itself; `columns` follow it.
-  static Curve fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
+  static CurveFile fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
   /// Takes up a curve that `cut` has cut. A file that is not there is begun. DeckFailure if its first line is another
   /// one.
-  static Curve resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
+  static CurveFile resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns);
 
   /// Throws MachineFailure if the row could not be written; the rows before it then still stand.
   void add(std::int64_t step, std::span<const Real> values);
@@ -45,7 +45,7 @@ class Curve {
   void write_sidecar(const std::string& json) const;
 
  private:
-  Curve(std::filesystem::path file, const std::vector<CurveColumn>& columns);
+  CurveFile(std::filesystem::path file, const std::vector<CurveColumn>& columns);
   void open();
 
   std::filesystem::path file_;

@@ -1,4 +1,4 @@
-#include "core/io/curve.hpp"
+#include "core/io/curve_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -95,17 +95,17 @@ void cut(const std::vector<CurveCut>& cuts) {
       throw file_failure("cut", cut.file, errno);
 }
 
-Curve::Curve(std::filesystem::path file, const std::vector<CurveColumn>& columns)
+CurveFile::CurveFile(std::filesystem::path file, const std::vector<CurveColumn>& columns)
     : file_(std::move(file)), first_line_(beadwork::first_line(columns)), columns_(columns.size()) {}
 
-Curve Curve::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
+CurveFile CurveFile::fresh(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   write_atomically(file, first_line(columns) + "\n");
-  Curve curve(file, columns);
+  CurveFile curve(file, columns);
   curve.open();
   return curve;
 }
 
-Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
+CurveFile CurveFile::resume(const std::filesystem::path& file, const std::vector<CurveColumn>& columns) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return fresh(file, columns);
   std::ifstream in = open_to_read(file);
@@ -114,14 +114,14 @@ Curve Curve::resume(const std::filesystem::path& file, const std::vector<CurveCo
     throw DeckFailure(
         fmt::format("curve '{}' has the columns \"{}\", this deck wants \"{}\"; resume with the deck that wrote it",
                     file.string(), head, first_line(columns)));
-  Curve curve(file, columns);
+  CurveFile curve(file, columns);
   curve.open();
   return curve;
 }
 
-void Curve::open() { descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "write"); }
+void CurveFile::open() { descriptor_ = open_regular(file_, O_WRONLY | O_APPEND, "write"); }
 
-void Curve::add(std::int64_t step, std::span<const Real> values) {
+void CurveFile::add(std::int64_t step, std::span<const Real> values) {
   if (values.size() != columns_)
     throw std::logic_error(fmt::format("curve '{}' has {} columns, not {}", file_.string(), columns_, values.size()));
   row_.clear();
@@ -138,17 +138,17 @@ void Curve::add(std::int64_t step, std::span<const Real> values) {
   throw file_failure("write", file_, error);
 }
 
-void Curve::sync() {
+void CurveFile::sync() {
   if (::fsync(descriptor_.number()) != 0 && errno != EINVAL) throw file_failure("write", file_, errno);
 }
 
-CurveEnd Curve::end() const {
+CurveEnd CurveFile::end() const {
   const off_t end = ::lseek(descriptor_.number(), 0, SEEK_END);
   if (end < 0) throw file_failure("read", file_, errno);
   return {static_cast<std::uintmax_t>(end), first_line_};
 }
 
-void Curve::write_sidecar(const std::string& json) const {
+void CurveFile::write_sidecar(const std::string& json) const {
   std::filesystem::path sidecar = file_;
   write_atomically(sidecar.replace_extension(".json"), json);
 }
