@@ -34,6 +34,8 @@ struct Stage {
   /// Of all its loads, in the deck's order.
   std::vector<Constraint> constraints() const;
   bool watched_by(const Watcher& watcher) const;
+  /// Which of its watchers tells a number under this name.
+  std::optional<std::size_t> gauge_named(const std::string& curve) const;
   /// All its plugins, laws first.
   std::vector<const Plugin*> plugins() const;
 };
