@@ -353,7 +353,9 @@ void Assembly::check_awaited() {
   std::set<std::string> told;  // one 'until' may stand for several stages
   for (const Stage& stage : scene_.stages)
     for (const Until::Awaited& awaited : stage.until->awaited()) {
-      const Watcher& watcher = *stage.watchers[*stage.gauge_named(awaited.name)];
+      const auto number = stage.gauge_named(awaited.name);
+      if (!number) continue;  // it looks in another stage of the same 'until'
+      const Watcher& watcher = *stage.watchers[*number];
       const std::string unit = blaming(watcher, "unit", [&] { return watcher.gauge()->unit(*scene_.domain); });
       if (awaited.is_zero || awaited.dimension == find_unit(unit)->dimension) continue;
       if (!told.insert(awaited.value_at.where()).second) continue;

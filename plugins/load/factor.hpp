@@ -24,10 +24,9 @@ inline ParamInfo factor_info(const std::string& of) {
 /// Throws PhysicsFailure where it is no number.
 inline Real factor_at(const Param<Formula>& factor, Real since) {
   const Real value = (*factor)({&since, 1});
-  if (!std::isfinite(value))
-    throw PhysicsFailure(
-        fmt::format("{}: error: 'factor' is {} at t = {} s: it must be finite", factor.at().where(), value, since));
-  return value;
+  if (std::isfinite(value)) return value;
+  throw PhysicsFailure(fmt::format("{}: error: 'factor' is {} at t = {} s", factor.at().where(),
+                                   std::isnan(value) ? "no number" : "infinite", since));
 }
 
 }  // namespace beadwork

@@ -90,7 +90,7 @@ TEST(Course, that_does_not_change_gives_the_bits_of_the_quantity) {
 
 TEST(Course, that_is_no_number_from_a_time_on_ends_the_run_there_with_its_place) {
   const auto run = one_ball(pull("1 m/s * sqrt(1 - t / 50 us)"), "2 us", "100 us or 1 m");
-  EXPECT_THAT(run.failure, HasSubstr("deck.xml:3:11: error: plugin load.pull prescribes at 5.")) << run.failure;
+  EXPECT_THAT(run.failure, HasSubstr("deck.xml:3:12: error: plugin load.pull prescribes at 5.")) << run.failure;
   EXPECT_THAT(run.failure, HasSubstr("they must be finite"));
 }
 
@@ -131,7 +131,7 @@ TEST(PushCourse, multiplies_what_sets_in) {
 
 TEST(PushCourse, that_is_no_number_ends_the_run_with_its_place) {
   const auto run = one_ball(push("1 0 0 mN", factor("sqrt(1 - t / 50 us)")), "2 us", "1 ms");
-  EXPECT_THAT(run.failure, HasSubstr("deck.xml:3:51: error: 'factor' is ")) << run.failure;
+  EXPECT_THAT(run.failure, HasSubstr("deck.xml:3:52: error: 'factor' is no number at t = 5")) << run.failure;
 }
 
 // derived: v = -g/w sin(wt), of a weight that goes to and fro like cos(wt)
@@ -184,6 +184,19 @@ TEST(UntilSensor, forgets_the_looks_of_the_stage_before) {
                                                  pull("1 mm/s"), displacement(8)));
   EXPECT_EQ(run.failure, "");
   EXPECT_EQ(run.summary.at("steps"), 16) << "its first look in stage two is at its beginning, step 16, where it is due";
+}
+
+TEST(UntilSensor, of_all_stages_may_look_in_one_of_them) {
+  const auto run = testing::run_deck(fmt::format(R"(<scene>
+    <fill><element set="all" at="0 0 0 mm" radius="1 mm" density="1000 kg/m^3"/></fill>
+    <load>{}</load>
+    <move><verlet time-step="1 us" until="100 or sensor way > 110.5 nm"/></move>
+    <stage name="one"/>
+    <stage name="two"><watch>{}</watch></stage>
+  </scene>)",
+                                                 pull("1 mm/s"), displacement(1)));
+  EXPECT_EQ(run.failure, "");
+  EXPECT_EQ(run.summary.at("steps"), 111);
 }
 
 }  // namespace
