@@ -140,11 +140,12 @@ bool looks_like_unit(std::string_view piece, const std::vector<Variable>& variab
          std::none_of(variables.begin(), variables.end(), [&](const Variable& v) { return v.name == piece; });
 }
 
-// A number or ${...}, and a unit behind it or none: it is read, and complained of, like any quantity.
+// A number or ${...}, and a unit behind it or none, or nothing: it is read, and complained of, like any quantity.
 bool looks_like_quantity(const std::string& text, const std::vector<Variable>& variables) {
   ValueMistake ignored;
   const auto pieces = pieces_of(text, ignored);
-  if (!pieces || pieces->empty() || pieces->size() > 2) return false;
+  if (!pieces || pieces->size() > 2) return false;
+  if (pieces->empty()) return true;
   const Piece &first = pieces->front(), &last = pieces->back();
   if (!first.is_expression && !looks_like_number(first.text)) return false;
   return pieces->size() == 1 || (!last.is_expression && looks_like_unit(last.text, variables));
