@@ -97,15 +97,17 @@ void VelocityCourse::divide(const Panel& octave) const {
   for (std::size_t k = borders.size() - 1; k > 0; --k) open_.push_back({borders[k - 1], borders[k]});
 }
 
-// The panel is fine enough if its halves give the same, but for rounding: of velocities, of times as far as the
-// velocity changes with them, and of the place.
+// The panel is fine enough if two parts of it give the same, but for rounding: of velocities, of times as far as the
+// velocity changes with them, and of the place. The parts are uneven, lest many whole periods look like rest: there all
+// that is odd about the middle gives 0, and so do its halves.
 void VelocityCourse::settle(const Panel& panel) const {
-  const Real middle = 0.5 * (panel.begin + panel.end);
+  constexpr Real uneven = 0.41421356;
+  const Real cut = panel.begin + uneven * (panel.end - panel.begin), middle = 0.5 * (panel.begin + panel.end);
   const Sum whole = weighed(panel);
-  const Real halves = integral({panel.begin, middle}) + integral({middle, panel.end});
-  const bool agree = std::abs(whole.value - halves) <= eps * (4 * whole.way + whole.noise + 0.25 * way_);
+  const Real parts = integral({panel.begin, cut}) + integral({cut, panel.end});
+  const bool agree = std::abs(whole.value - parts) <= eps * (4 * whole.way + whole.noise + 0.25 * way_);
   if (agree || panel.begin == 0 || panel.end - panel.begin <= narrowest * panel.end) {
-    travelled_.push_back((travelled_.empty() ? 0 : travelled_.back()) + halves);
+    travelled_.push_back((travelled_.empty() ? 0 : travelled_.back()) + parts);
     ends_.push_back(panel.end);
     way_ += whole.way;
     return;

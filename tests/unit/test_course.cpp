@@ -59,6 +59,18 @@ TEST(course, does_not_miss_a_short_pulse_whose_borders_it_is_told) {
   EXPECT_NEAR(course.at(3).displacement, 5e-4, 1e-15);
 }
 
+// Panels end at powers of two and between: whole periods of such a sine, in which all that is odd cancels. Rounded
+// times move the phase by 1e-16 wt in each of wt radians.
+TEST(course, does_not_take_many_whole_periods_for_rest) {
+  for (const Real period : {1.0, 1.0 / 64, 1e-3}) {
+    const Real w = 2 * pi / period;
+    const VelocityCourse course = sine(1, w);
+    for (const Real t : {0.7, 9.2, 33.3, 150.4})
+      EXPECT_NEAR(course.at(t).displacement * w, 1 - std::cos(w * t), 1e-14 + 2e-16 * w * t * w * t)
+          << period << " " << t;
+  }
+}
+
 TEST(course, resolves_a_slow_beginning_and_a_chirp) {
   // derived: the integrals are t^2.5/2.5 and sin(t^2); of the second a rounded time moves the velocity by 1e-16 * 4 t^3
   const VelocityCourse power([](Real t) { return t * std::sqrt(t); }, [](Real t) { return 1.5 * std::sqrt(t); }, {});
