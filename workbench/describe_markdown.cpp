@@ -109,6 +109,7 @@ const char* const moments = R"(
 | `force of SET \< 3 N`, also `>` `\<=` `>=` | when the force on a driven set passes the value; to fall below it, it must have been above it |
 | `force of SET \< 2 percent of its maximum` | when it passes that share of its largest value in this stage |
 | `displacement of SET > 1 mm` | when this set has moved as far |
+| `sensor NAME > 3 MPa`, also `\<` `\<=` `>=` | when the last look of this sensor, in this stage, has told so |
 | `time > 1 ms and displacement > 0.1 mm` | when a condition on `time`, `step` and `displacement` holds |
 
 `at` of a watcher lists moments besides its `every`, separated by commas: times, numbers of steps or displacements as above,

@@ -11,7 +11,8 @@ namespace {
 const std::string number = R"([+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?)";
 const std::string unit = R"(( ?[^ 0-9.+\-$]\S*| 1/\S+))";
 const std::string zero = R"([+\-]?0(\.0*)?)";
-const std::string expression = R"(.*[$]\{.*\}.*)";  // its value is known to the program only
+const std::string calculation = R"(.*[*(].*|.* [+\-/] .*|[+\-]?[A-Za-z_].*)";  // there is an operator, a call or a name
+const std::string expression = R"(.*[$]\{.*\}.*)";                             // its value is known to the program only
 
 std::string doc_of(const std::string& text, const std::string& indent) {
   return fmt::format("{0}<xs:annotation><xs:documentation>{1}</xs:documentation></xs:annotation>\n", indent,
@@ -28,6 +29,8 @@ std::string pattern_type(const std::string& name, const std::string& pattern, co
 std::string value_types() {
   std::string text = pattern_type("number", number + unit + "?", "A plain number");
   text += pattern_type("quantity", number + unit + "|" + zero, "A number with its unit: 13.5 mm; a 0 needs none");
+  text += pattern_type("formula", number + unit + "|" + zero + "|" + calculation,
+                       "A number with its unit, or a formula that gives one: 2 mm/s * sin(2*pi * t / 1 ms)");
   text += pattern_type("numbers", fmt::format("({0}{1}? ){{2}}{0}{1}?", number, unit), "Three values: 1 2 3 mm");
   text += pattern_type("switch", "yes|no|true|false", "yes or no");
   text += pattern_type("expression", expression, "${...}: a parameter, or an expression on quantities");
@@ -52,6 +55,7 @@ const char* type_of_param(const ParamBase& param) {
   const std::string words = param.type();
   if (words == "number" || words == "integer") return "number";
   if (words == "quantity") return "quantity";
+  if (words == "formula" && param.info().unit != "1") return "formula";
   if (words == "three numbers") return "numbers";
   if (words == "yes or no") return "switch";
   return "text";

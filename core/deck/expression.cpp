@@ -1,5 +1,6 @@
 #include "core/deck/expression.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -114,6 +115,93 @@ double Expression::evaluate(std::span<const double> si_values) const {
       values[i] = apply(operation, values[step.a], values[step.b], values[step.c]);
   }
   return values[steps_.size() - 1];
+}
+
+Expression::Sloped Expression::evaluate_with_slope(std::span<const double> si_values, std::size_t variable) const {
+  std::vector<Sloped> all(steps_.size());
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const auto operation = static_cast<Operation>(step.operation);
+    if (operation == Operation::constant) {
+      all[i] = {step.value, 0};
+    } else if (operation == Operation::variable) {
+      all[i] = {si_values[static_cast<std::size_t>(step.a)], step.a == static_cast<int>(variable) ? 1.0 : 0.0};
+    } else {
+      const Sloped &a = all[step.a], &b = all[step.b], &c = all[step.c];
+      all[i] = {apply(operation, a.value, b.value, c.value),
+                slope(operation, a.value, b.value, c.value, a.slope, b.slope, c.slope)};
+    }
+  }
+  return all.back();
+}
+
+namespace {
+
+/// A step as a straight line over one variable, where it is one.
+struct Line {
+  double at_zero = 0, slope = 0;
+  bool is_straight = false;
+  bool is_level() const { return is_straight && slope == 0; }
+};
+
+Line line_of(Operation operation, const Line& a, const Line& b, const Line& c) {
+  const Line difference{a.at_zero - b.at_zero, a.slope - b.slope, a.is_straight && b.is_straight};
+  switch (operation) {
+    case Operation::add: return {a.at_zero + b.at_zero, a.slope + b.slope, difference.is_straight};
+    case Operation::subtract: return difference;
+    case Operation::negate: return {-a.at_zero, -a.slope, a.is_straight};
+    case Operation::multiply:
+      if (a.is_level() && b.is_straight) return {a.at_zero * b.at_zero, a.at_zero * b.slope, true};
+      return {a.at_zero * b.at_zero, a.slope * b.at_zero, a.is_straight && b.is_level()};
+    case Operation::divide: return {a.at_zero / b.at_zero, a.slope / b.at_zero, a.is_straight && b.is_level()};
+    default: {
+      const int count = operands(operation);
+      const bool level = (count < 1 || a.is_level()) && (count < 2 || b.is_level()) && (count < 3 || c.is_level());
+      return {level ? apply(operation, a.at_zero, b.at_zero, c.at_zero) : 0, 0, level};
+    }
+  }
+}
+
+/// Where this step changes from one branch to another: where the line crosses zero. It is level where there is no such
+/// line.
+Line switch_of(Operation operation, const Line& a, const Line& b) {
+  switch (operation) {
+    case Operation::absolute:
+    case Operation::sign: return a.is_straight ? a : Line{};
+    case Operation::less:
+    case Operation::less_equal:
+    case Operation::greater:
+    case Operation::greater_equal:
+    case Operation::equal:
+    case Operation::different:
+    case Operation::minimum:
+    case Operation::maximum: return a.is_straight && b.is_straight ? line_of(Operation::subtract, a, b, {}) : Line{};
+    default: return {};
+  }
+}
+
+}  // namespace
+
+std::vector<double> Expression::kinks(std::size_t variable) const {
+  std::vector<Line> lines(steps_.size());
+  std::vector<double> all;
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    const Step& step = steps_[i];
+    const auto operation = static_cast<Operation>(step.operation);
+    if (operation == Operation::constant) {
+      lines[i] = {step.value, 0, true};
+    } else if (operation == Operation::variable) {
+      lines[i] = {0, 1, step.a == static_cast<int>(variable)};
+    } else {
+      const Line &a = lines[step.a], &b = lines[step.b], &c = lines[step.c];
+      lines[i] = line_of(operation, a, b, c);
+      const Line turn = switch_of(operation, a, b);
+      if (const double at = -turn.at_zero / turn.slope; turn.slope != 0 && std::isfinite(at)) all.push_back(at);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace beadwork

@@ -53,6 +53,14 @@ class Expression {
   /// In SI; a condition gives 1 or 0. `si_values` are in the order of the variables. The result may be NaN or
   /// infinite (a condition on a NaN is NaN): it is the caller who knows how to say so.
   double evaluate(std::span<const double> si_values = {}) const;
+  struct Sloped {
+    double value, slope;
+  };
+  /// With the derivative by one variable, found by the rules of calculus. At a kink it is that of the side where the
+  /// variable is larger for abs, and of the branch that is evaluated for if, min and max; a jump has none.
+  Sloped evaluate_with_slope(std::span<const double> si_values, std::size_t variable) const;
+  /// Where conditions, abs, sign, min and max of what is linear in this variable, alone, change: exact, ascending.
+  std::vector<double> kinks(std::size_t variable) const;
 
   /// One step of the calculation: a function of earlier steps (see operations.hpp).
   struct Step {

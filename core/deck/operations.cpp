@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace beadwork {
 
@@ -84,6 +85,45 @@ double apply(Operation operation, double a, double b, double c) {
     case Operation::sign: return sign_of(a);
   }
   return nan;
+}
+
+namespace {
+
+// What does not change has no slope, even where the factor before it is infinite.
+double times(double factor, double change) { return change == 0 ? 0 : factor * change; }
+
+double slope_of_power(double a, double b, double da, double db) {
+  const double by_base = times(b * std::pow(a, b - 1), da);
+  return db == 0 ? by_base : by_base + std::pow(a, b) * std::log(a) * db;
+}
+
+}  // namespace
+
+double slope(Operation operation, double a, double b, double, double da, double db, double dc) {
+  switch (operation) {
+    case Operation::add: return da + db;
+    case Operation::subtract: return da - db;
+    case Operation::multiply: return times(b, da) + times(a, db);
+    case Operation::divide: return times(1 / b, da) - times(a / (b * b), db);
+    case Operation::power: return slope_of_power(a, b, da, db);
+    case Operation::negate: return -da;
+    case Operation::choose: return std::isnan(a) ? nan : a != 0 ? db : dc;
+    case Operation::square_root: return times(0.5 / std::sqrt(a), da);
+    case Operation::absolute: return a == 0 ? std::abs(da) : a < 0 ? -da : da;
+    case Operation::minimum: return b < a ? db : da;
+    case Operation::maximum: return a < b ? db : da;
+    case Operation::sine: return times(std::cos(a), da);
+    case Operation::cosine: return times(-std::sin(a), da);
+    case Operation::tangent: return times(1 + std::tan(a) * std::tan(a), da);
+    case Operation::arc_sine: return times(1 / std::sqrt((1 - a) * (1 + a)), da);
+    case Operation::arc_cosine: return times(-1 / std::sqrt((1 - a) * (1 + a)), da);
+    case Operation::arc_tangent: return times(1 / (1 + a * a), da);
+    case Operation::arc_tangent_of_two: return times(b / (a * a + b * b), da) - times(a / (a * a + b * b), db);
+    case Operation::exponential: return times(std::exp(a), da);
+    case Operation::logarithm: return times(1 / a, da);
+    case Operation::logarithm_10: return times(1 / (a * std::numbers::ln10), da);
+    default: return 0;  // constants; conditions and whole numbers, which jump
+  }
 }
 
 std::span<const FunctionHelp> functions() {

@@ -51,6 +51,9 @@ int operands(Operation operation);
 /// One step on plain numbers; conditions are 1 and 0. A NaN makes every result NaN, comparisons too.
 double apply(Operation operation, double a, double b, double c);
 
+/// The derivative of a step, of its numbers and theirs.
+double slope(Operation operation, double a, double b, double c, double da, double db, double dc);
+
 /// A function that expressions know, as the manual tells it.
 struct FunctionHelp {
   std::string_view name, arguments, doc;

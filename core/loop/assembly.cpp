@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/text.hpp"
+#include "core/base/units.hpp"
 #include "core/deck/read.hpp"
 #include "core/plugin/blame.hpp"
 #include "core/plugin/stamp.hpp"
@@ -38,6 +39,12 @@ const KindRow* section(const std::string& tag, bool inside_stage) {
   for (const KindRow& row : all_kinds)
     if (tag == row.name && (row.in_stages || !inside_stage)) return &row;
   return nullptr;
+}
+
+/// The name of its curve, if it has one.
+std::string curve_of(const Watcher& watcher) {
+  const ParamBase* name = watcher.param("name");
+  return name && name->given() ? name->text() : "";
 }
 
 bool holds(const std::vector<Mover*>& movers, const Mover* mover) {
@@ -80,6 +87,12 @@ std::vector<Constraint> Stage::constraints() const {
 
 bool Stage::watched_by(const Watcher& watcher) const {
   return std::find(watchers.begin(), watchers.end(), &watcher) != watchers.end();
+}
+
+std::optional<std::size_t> Stage::gauge_named(const std::string& curve) const {
+  for (std::size_t w = 0; w < watchers.size(); ++w)
+    if (watchers[w]->gauge() && curve_of(*watchers[w]) == curve) return w;
+  return std::nullopt;
 }
 
 void Scene::bind() const {
@@ -139,6 +152,7 @@ void Assembly::run() {
   }
   deck_.scope.complain_about_unused(*deck_.root, complaints_);
   if (complaints_.errors() == 0) lay_out_fields();
+  if (complaints_.errors() == 0) check_awaited();
   if (complaints_.errors() == 0) resolve();
 }
 
@@ -322,13 +336,43 @@ void Assembly::compile_until(Stage& stage) {
   }
   stage.until = Until::compile(text, at, deck_.scope, complaints_);
   if (!stage.until) return;
-  const auto prospects = stage.until->prospects(stage.constraints());
+  const auto prospects =
+      stage.until->prospects(stage.constraints(), [&](const std::string& name) { return why_untold(stage, name); });
   const bool ends =
       std::any_of(prospects.begin(), prospects.end(), [](const Until::Prospect& p) { return p.why_never.empty(); });
   for (const Until::Prospect& p : prospects) {
     if (!ends) endless_.push_back(p);
     note_prospect("until", p.at, p.why_never);
   }
+}
+
+std::string Assembly::why_untold(const Stage& stage, const std::string& name) const {
+  if (stage.gauge_named(name) || !is_read(Kind::watch)) return "";
+  std::vector<std::string> known;
+  for (const Watcher* watcher : watchers())
+    if (watcher->gauge()) known.push_back(curve_of(*watcher));
+  if (std::find(known.begin(), known.end(), name) != known.end())
+    return fmt::format("waits for sensor '{}', which does not look in stage '{}'", name, stage.name);
+  return fmt::format("waits for sensor \"{}\", {}", name,
+                     known.empty() ? "but <watch> has none" : "which is not in <watch>" + did_you_mean(name, known));
+}
+
+// Only now do sensors know the units of what they look at.
+void Assembly::check_awaited() {
+  std::set<std::string> told;  // one 'until' may stand for several stages
+  for (const Stage& stage : scene_.stages)
+    for (const Until::Awaited& awaited : stage.until->awaited()) {
+      const auto number = stage.gauge_named(awaited.name);
+      if (!number) continue;  // it looks in another stage of the same 'until'
+      const Watcher& watcher = *stage.watchers[*number];
+      const std::string unit = blaming(watcher, "unit", [&] { return watcher.gauge()->unit(*scene_.domain); });
+      if (awaited.is_zero || awaited.dimension == find_unit(unit)->dimension) continue;
+      if (!told.insert(awaited.value_at.where()).second) continue;
+      complaints_.error(
+          awaited.value_at,
+          fmt::format("'until' compares sensor '{}' with {}, got \"{}\" which is {}", awaited.name, wanted_by(unit),
+                      awaited.value, awaited.dimension.is_plain() ? "a plain number" : awaited.dimension.name()));
+    }
 }
 
 // What stands outside of the stages may come in one of them only.

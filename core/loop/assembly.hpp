@@ -30,6 +30,8 @@ class Assembly {
   void check_watchers();
   std::vector<Constraint> constraints_seen_by(const Watcher& watcher) const;
   void compile_until(Stage& stage);
+  std::string why_untold(const Stage& stage, const std::string& name) const;
+  void check_awaited();
   void compile_marks(Stage& stage);
   void note_prospect(const std::string& attribute, const Location& at, const std::string& why_never);
   void complain_of_hopeless();

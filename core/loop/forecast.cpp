@@ -5,18 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/failure.hpp"
+
 namespace beadwork {
 
 namespace {
 
-// The time from `began` on at which what is driven has gone that far: it never turns back before, so bisection finds
-// it.
+// The time from `began` on at which what is driven has gone that far, by bisection: of one that turns back before it
+// is a guess.
 std::optional<Real> time_of_displacement(std::span<const Constraint> constraints, Real began, Real wanted,
-                                         Real time_step) {
+                                         Real time_step, Real most_steps) {
   Real late = time_step;
   while (driven_displacement(constraints, "", began, began + late) < wanted) {
-    late *= 2;
-    if (late > 1e12 * time_step) return std::nullopt;
+    if (late >= most_steps * time_step) return std::nullopt;
+    late = std::min(2 * late, most_steps * time_step);
   }
   Real early = 0;
   for (int halving = 0; halving < 100; ++halving) {
@@ -24,6 +26,16 @@ std::optional<Real> time_of_displacement(std::span<const Constraint> constraints
     (driven_displacement(constraints, "", began, began + middle) < wanted ? early : late) = middle;
   }
   return late;
+}
+
+// A course may be no number later than it is needed, or not be followed that far: then nothing can be foreseen.
+std::optional<Real> foreseen_displacement(std::span<const Constraint> constraints, Real began, Real wanted,
+                                          Real time_step, Real most_steps) {
+  try {
+    return time_of_displacement(constraints, began, wanted, time_step, most_steps);
+  } catch (const PhysicsFailure&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -35,7 +47,8 @@ std::optional<Real> steps_of(const Until& until, std::span<const Constraint> con
   if (!(time_step > 0)) return fewest;
   if (until.time()) note(std::ceil(*until.time() / time_step));
   if (until.displacement())
-    if (const auto time = time_of_displacement(constraints, began, *until.displacement(), time_step))
+    if (const auto time =
+            foreseen_displacement(constraints, began, *until.displacement(), time_step, fewest.value_or(1e12)))
       note(std::ceil(*time / time_step));
   return fewest;
 }

@@ -138,7 +138,8 @@ bool Run::over() {
   }
   std::vector<Peak>& peaks = state_.peaks[state_.stage_number()];
   raise(peaks, state_.moment, state_.held());
-  return state_.stage().until->reached(state_.moment, state_.held(), peaks);
+  return state_.stage().until->reached(state_.moment, state_.held(), peaks,
+                                       [this](const std::string& name) { return state_.told_by(name); });
 }
 
 void Run::step() {

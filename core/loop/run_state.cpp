@@ -100,6 +100,12 @@ Index RunState::number_of(const BondTable& table) const {
                             scene.families.begin());
 }
 
+std::optional<Real> RunState::told_by(const std::string& watcher) const {
+  const auto number = stage().gauge_named(watcher);
+  if (!number || watchers[stage_number()][*number].last_look < 0) return std::nullopt;
+  return stage().watchers[*number]->gauge()->last();
+}
+
 std::size_t RunState::most_held() const {
   std::size_t most = 0;
   for (const auto& of_stage : constraints) most = std::max(most, of_stage.size());

@@ -2,6 +2,7 @@
 // What a run must remember, and where it stands. Its numbers are columns of the scene, so that a checkpoint has them
 // all and nothing is copied to and fro.
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -56,6 +57,8 @@ class RunState {
   /// The number of a family among those of the scene.
   Index number_of(const BondTable& table) const;
   Kept& released_by(const BondTable& table) { return released[static_cast<std::size_t>(number_of(table))]; }
+  /// The number that the watcher of this name told at its last look in this stage; nothing before the first.
+  std::optional<Real> told_by(const std::string& watcher) const;
   /// Most constraints of any stage.
   std::size_t most_held() const;
 

@@ -35,6 +35,8 @@ struct Stage {
   /// Of all its loads, in the deck's order, and of what holds itself where these do not.
   std::vector<Constraint> constraints() const;
   bool watched_by(const Watcher& watcher) const;
+  /// Which of its watchers tells a number under this name.
+  std::optional<std::size_t> gauge_named(const std::string& curve) const;
   /// All its plugins, laws first.
   std::vector<const Plugin*> plugins() const;
 };

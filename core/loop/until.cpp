@@ -14,6 +14,12 @@ namespace beadwork {
 
 namespace {
 
+const std::vector<std::string> comparisons{"<", "<=", ">", ">="};
+
+bool is_comparison(const std::string& word) {
+  return std::find(comparisons.begin(), comparisons.end(), word) != comparisons.end();
+}
+
 bool compare(Real a, const std::string& how, Real b) {
   if (how == "<") return a < b;
   if (how == "<=") return a <= b;
@@ -65,9 +71,11 @@ std::optional<Until::Clause> Until::clause(const std::string& text, const Locati
                                            Complaints& complaints) {
   const std::vector<std::string> words = split_words(text);
   if (words.size() >= 3 && words[1] == "of") return watched(words, text, at, scope, complaints);
+  if (words.size() >= 2 && words[0] == "sensor" && !is_comparison(words[1]))
+    return sensed(words, text, at, scope, complaints);
   const auto expression = Expression::compile(text, at, scope, Mark::variables(), complaints);
   if (!expression) return std::nullopt;
-  Clause clause{What::condition, std::string(trim(text)), at, 0, {}, false, "", "", false, expression};
+  Clause clause{What::condition, std::string(trim(text)), at, 0, {}, false, "", "", false, expression, {}};
   if (expression->is_condition()) return clause;
   const auto mark =
       Mark::of(*expression, "until", "a time, a number of steps, a displacement or a condition", text, at, complaints);
@@ -80,11 +88,9 @@ std::optional<Until::Clause> Until::clause(const std::string& text, const Locati
 // "force of SET < 2 percent of its maximum", "displacement of SET >= 1 mm"
 std::optional<Until::Clause> Until::watched(const std::vector<std::string>& words, const std::string& text,
                                             const Location& at, const Scope& scope, Complaints& complaints) {
-  Clause clause{What::watched, std::string(trim(text)), at, 0, {}, words[0] == "force", words[2], "", false,
-                std::nullopt};
-  const std::vector<std::string> comparisons{"<", "<=", ">", ">="};
-  if ((words[0] != "force" && words[0] != "displacement") || words.size() < 5 ||
-      std::find(comparisons.begin(), comparisons.end(), words[3]) == comparisons.end()) {
+  Clause clause{
+      What::watched, std::string(trim(text)), at, 0, {}, words[0] == "force", words[2], "", false, std::nullopt, {}};
+  if ((words[0] != "force" && words[0] != "displacement") || words.size() < 5 || !is_comparison(words[3])) {
     complaints.error(
         at, fmt::format("'until' wants \"force of SET < VALUE\" or \"displacement of SET > VALUE\", got \"{}\"", text));
     return std::nullopt;
@@ -106,11 +112,37 @@ std::optional<Until::Clause> Until::watched(const std::vector<std::string>& word
   return std::nullopt;
 }
 
+// "sensor NAME > 3 MPa"
+std::optional<Until::Clause> Until::sensed(const std::vector<std::string>& words, const std::string& text,
+                                           const Location& at, const Scope& scope, Complaints& complaints) {
+  if (words.size() < 4 || !is_comparison(words[2])) {
+    complaints.error(at, fmt::format("'until' wants \"sensor NAME > VALUE\", got \"{}\"", trim(text)));
+    return std::nullopt;
+  }
+  const std::size_t name = text.find(words[1], text.find(words[0]) + words[0].size());
+  const std::size_t sign = text.find(words[2], name + words[1].size());
+  const std::size_t value = text.find_first_not_of(blanks, sign + words[2].size());
+  const auto quantity = Expression::compile(trim(text.substr(value)), locate(at, value), scope, {}, complaints);
+  if (!quantity) return std::nullopt;
+  Clause clause{
+      What::sensor, std::string(trim(text)), at, quantity->evaluate(), {}, false, "", words[2], false, quantity, {}};
+  clause.awaited = {words[1],
+                    locate(at, name),
+                    quantity->dimension(),
+                    std::string(trim(text.substr(value))),
+                    locate(at, value),
+                    quantity->dimension().is_plain() && clause.value == 0};
+  return clause;
+}
+
 std::string Until::Clause::words() const { return what == What::mark ? mark.words() : text; }
 
 std::string Until::Clause::si() const {
   if (what == What::mark) return mark.si();
   if (what == What::condition) return condition->text();
+  if (what == What::sensor)
+    return fmt::format("sensor {} {} {}", awaited.name, comparison,
+                       format_quantity(Quantity{value, awaited.dimension}));
   const std::string limit =
       of_maximum ? format_number(value) + " of its maximum" : format_quantity(value, watches_force ? "N" : "m");
   return fmt::format("{} of {} {} {}", watches_force ? "force" : "displacement", set, comparison, limit);
@@ -190,9 +222,15 @@ std::string Until::si() const {
   return join(all, " or ");
 }
 
-std::vector<Until::Prospect> Until::prospects(std::span<const Constraint> constraints) const {
+std::vector<Until::Prospect> Until::prospects(
+    std::span<const Constraint> constraints,
+    const std::function<std::string(const std::string& name)>& why_untold) const {
   std::vector<Prospect> all;
-  for (const Clause& clause : clauses_) all.push_back({clause.at, clause.why_never(constraints)});
+  for (const Clause& clause : clauses_)
+    if (clause.what == What::sensor)
+      all.push_back({clause.awaited.at, why_untold(clause.awaited.name)});
+    else
+      all.push_back({clause.at, clause.why_never(constraints)});
   return all;
 }
 
@@ -213,7 +251,7 @@ void raise(std::vector<Peak>& peaks, const Moment& moment, std::span<const Const
 }
 
 bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Constraint> constraints,
-                  std::span<const Peak> peaks) {
+                  std::span<const Peak> peaks, const Told& told) {
   const Real time = moment.time - moment.stage_start;
   const auto steps = static_cast<Real>(moment.step - moment.stage_step);
   switch (clause.what) {
@@ -229,6 +267,10 @@ bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Co
                              : driven_displacement(constraints, clause.set, moment.stage_start, moment.time);
       return compare(value, clause.comparison, limit);
     }
+    case What::sensor: {
+      const std::optional<Real> value = told(clause.awaited.name);
+      return value && compare(*value, clause.comparison, clause.value);
+    }
     case What::condition: {
       const Real values[] = {time, steps, driven_displacement(constraints, "", moment.stage_start, moment.time)};
       return clause.condition->evaluate(values) == 1;
@@ -237,13 +279,21 @@ bool Until::holds(const Clause& clause, const Moment& moment, std::span<const Co
   return false;
 }
 
-bool Until::reached(const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks) const {
+bool Until::reached(const Moment& moment, std::span<const Constraint> constraints, std::span<const Peak> peaks,
+                    const Told& told) const {
   for (const Clause& clause : clauses_) {
-    if (!holds(clause, moment, constraints, peaks)) continue;
+    if (!holds(clause, moment, constraints, peaks, told)) continue;
     met_ = clause.words();
     return true;
   }
   return false;
+}
+
+std::vector<Until::Awaited> Until::awaited() const {
+  std::vector<Awaited> all;
+  for (const Clause& clause : clauses_)
+    if (clause.what == What::sensor) all.push_back(clause.awaited);
+  return all;
 }
 
 bool Until::is_foreseeable() const {

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "core/base/text.hpp"
+#include "core/deck/pieces.hpp"
 #include "core/deck/read.hpp"
 #include "core/plugin/plugin.hpp"
 
@@ -93,8 +95,14 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
   return keep_if(read_rows(a, info.columns, scope, c), value);
 }
 
-bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
-  value.text = a.value;
+// A quantity as it may stand for any parameter, "${2*n} mm", is more than an expression knows.
+bool take_constant(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
+  const auto quantity = read_quantity(a, info.unit, scope, c);
+  if (quantity) value.expression = Expression::compile(si(*quantity, info.unit), a.value_at, scope, {}, c);
+  return value.expression.has_value();
+}
+
+bool take_expression(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
   value.expression = Expression::compile(a, scope, info.variables, c);
   if (!value.expression) return false;
   const bool condition = value.expression->is_condition();
@@ -109,6 +117,44 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
           fmt::format("'{}' wants {}, got \"{}\" which is {}", info.name, wanted_by(info.unit), shown_value(a, scope),
                       condition ? "a condition" : value.expression->dimension().name()));
   return false;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// "13.5", "-1e-3", "5mm": no operator behind the number.
+bool looks_like_number(std::string_view piece) {
+  if (!piece.empty() && (piece[0] == '-' || piece[0] == '+')) piece.remove_prefix(1);
+  if (piece.empty() || !(is_digit(piece[0]) || piece[0] == '.')) return false;
+  for (std::size_t k = 1; k < piece.size(); ++k) {
+    const bool is_sign = piece[k] == '+' || piece[k] == '-';
+    if (is_sign ? (piece[k - 1] != 'e' && piece[k - 1] != 'E')
+                : std::string_view("(*/<>=^").find(piece[k]) != std::string_view::npos)
+      return false;
+  }
+  return true;
+}
+
+bool looks_like_unit(std::string_view piece, const std::vector<Variable>& variables) {
+  if (piece.find_first_of("(*<>=") != piece.npos || std::string_view("+-/^").find(piece[0]) != piece.npos) return false;
+  return piece != "and" && piece != "or" &&
+         std::none_of(variables.begin(), variables.end(), [&](const Variable& v) { return v.name == piece; });
+}
+
+// A number or ${...}, and a unit behind it or none, or nothing: it is read, and complained of, like any quantity.
+bool looks_like_quantity(const std::string& text, const std::vector<Variable>& variables) {
+  ValueMistake ignored;
+  const auto pieces = pieces_of(text, ignored);
+  if (!pieces || pieces->size() > 2) return false;
+  if (pieces->empty()) return true;
+  const Piece &first = pieces->front(), &last = pieces->back();
+  if (!first.is_expression && !looks_like_number(first.text)) return false;
+  return pieces->size() == 1 || (!last.is_expression && looks_like_unit(last.text, variables));
+}
+
+bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
+  value.text = a.value;
+  const bool is_quantity = !info.unit.empty() && looks_like_quantity(a.value, info.variables);
+  return is_quantity ? take_constant(info, a, scope, c, value) : take_expression(info, a, scope, c, value);
 }
 
 std::string words_of(const Real*, const ParamInfo& info) { return info.unit == "1" ? "number" : "quantity"; }

@@ -35,6 +35,14 @@ class Sight {
   virtual void frame(const FramePlan& plan) = 0;
 };
 
+/// A number that a watcher tells at each look, for 'until' to wait for.
+class Gauge {
+ public:
+  virtual ~Gauge() = default;
+  virtual std::string unit(const Domain&) const = 0;  ///< once the columns are there, before any rows
+  virtual Real last() const = 0;                      ///< as of the last look
+};
+
 class Watcher : public Plugin {
  public:
   static constexpr Kind its_kind = Kind::watch;
@@ -55,6 +63,8 @@ class Watcher : public Plugin {
   /// Complains of what it would look for in vain: `constraints` are those of all stages in which it stands.
   virtual void check_stages(std::span<const Constraint> /*constraints*/, Complaints&) const {}
   virtual void look(Sight& sight) = 0;
+  /// Where it tells one number under its 'name': until="sensor NAME > 3 MPa" then waits for that.
+  virtual const Gauge* gauge() const { return nullptr; }
 
   const std::vector<Curve*>& curves() const { return curves_; }
 

@@ -2,6 +2,7 @@
 
 #include "core/base/text.hpp"
 #include "core/base/units.hpp"
+#include "core/mechanics/course.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/plugin/kinds.hpp"
 
@@ -22,13 +23,20 @@ class Pull final : public Load {
                            .doc = "each element alike, or the mean over the set",
                            .fallback = "each",
                            .choices = {"each", "mean"}}};
-  Param<Real> velocity{this,
-                       {.name = "velocity", .unit = "m/s", .doc = "Velocity that is reached", .one_of = "motion"}};
+  Param<Formula> velocity{
+      this,
+      {.name = "velocity",
+       .unit = "m/s",
+       .doc = "Velocity that is reached, or a formula in t, the time since the pull began: \"2 mm/s "
+              "* sin(2*pi * t / 1 ms)\"",
+       .variables = {{"t", find_unit("s")->dimension}},
+       .one_of = "motion"}};
   Param<Real> rise{this,
                    {.name = "rise",
                     .unit = "s",
                     .range = not_negative,
-                    .doc = "Time over which the velocity sets in, smoothly (no jump of acceleration)",
+                    .doc = "Time over which the velocity sets in, smoothly (no jump of acceleration); a formula is "
+                           "multiplied by what has set in",
                     .fallback = "0 s",
                     .instead = "table"}};
   Param<QuantityRows> table{this,
@@ -59,12 +67,33 @@ class Pull final : public Load {
     c.driven = true;
     if (table.given())
       follow(c, course());
+    else if (velocity.given() && velocity->expression->uses(0))
+      follow_formula(c);
     else
-      follow(c, SmoothRamp{*velocity, *rise});
+      follow(c, SmoothRamp{velocity.given() ? (*velocity)({}) : 0, *rise});
     return {c};
   }
 
  private:
+  // How far it ever gets nobody can tell.
+  void follow_formula(Constraint& c) const {
+    const Expression& formula = *velocity->expression;
+    const SmoothRamp share{1, *rise};
+    std::vector<Real> kinks = formula.kinks(0);
+    kinks.push_back(*rise);
+    const auto course = std::make_shared<VelocityCourse>(
+        [formula, share](Real t) {
+          return formula.evaluate({&t, 1}) * share.at(t).velocity;
+        },
+        [formula, share](Real t) {
+          const auto [value, slope] = formula.evaluate_with_slope({&t, 1}, 0);
+          const PrescribedMotion set_in = share.at(t);
+          return slope * set_in.velocity + value * set_in.acceleration;
+        },
+        std::move(kinks));
+    c.motion = [course](Real t) { return course->at(t); };
+  }
+
   template <class Course>
   static void follow(Constraint& c, const Course& course) {
     c.reach = course.reach();

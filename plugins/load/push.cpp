@@ -1,6 +1,7 @@
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/ramp.hpp"
 #include "core/plugin/kinds.hpp"
+#include "plugins/load/factor.hpp"
 
 namespace beadwork {
 
@@ -21,6 +22,7 @@ class Push final : public Load {
                     .range = not_negative,
                     .doc = "Time over which the force sets in, smoothly",
                     .fallback = "0 s"}};
+  Param<Formula> factor{this, factor_info("force and torque are")};
 
   Adds<Vec3> forces{this, field::force};
   Adds<Vec3> torques{this, field::torque};
@@ -77,7 +79,10 @@ class Push final : public Load {
   }
 
   // A push that stands in several stages sets in once.
-  Real strength(const Moment& moment) const { return *rise > 0 ? smooth_step((moment.time - began[0]) / *rise) : 1; }
+  Real strength(const Moment& moment) const {
+    const Real since = moment.time - began[0];
+    return (*rise > 0 ? smooth_step(since / *rise) : 1) * factor_at(factor, since);
+  }
 };
 
 }  // namespace beadwork

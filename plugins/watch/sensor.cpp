@@ -11,7 +11,7 @@
 namespace beadwork {
 
 /// One number of a field: its sum, mean, extremes or the like over a set, the bonds of a family, or all there are.
-class Sensor final : public Watcher {
+class Sensor final : public Watcher, private Gauge {
  public:
   static constexpr const char* about =
       "Any field reduced to a number, over a set, the bonds of a family or all, as a curve";
@@ -47,8 +47,14 @@ class Sensor final : public Watcher {
        .doc = "Only values that fulfil this condition on 'value', which is in SI units, as a plain number",
        .optional = true,
        .variables = {{"value", {}}}}};
-  Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "sensor"}};
+  Param<std::string> name{this,
+                          {.name = "name",
+                           .doc = "Name of the curve and of its file, and in until=\"sensor NAME > VALUE\"",
+                           .fallback = "sensor"}};
   Curve curve{this, name, {}};
+  Keeps<Real> told{this, {"told", On::scene, "1", "What it told at its last look, in SI units"}};
+
+  const Gauge* gauge() const override { return this; }
 
   std::vector<std::string> families() const override {
     return bonds.given() ? std::vector<std::string>{*bonds} : std::vector<std::string>{};
@@ -71,12 +77,23 @@ class Sensor final : public Watcher {
     unit_ = "1";
     gather(sight.domain());
     if (where.given()) std::erase_if(values_, [&](Real value) { return (*where)({&value, 1}) != 1; });
-    const Real told = reduced();
+    told[0] = reduced();
     if (*reduce != "count") curve.plan.columns.front().second = unit_;
-    curve.row({told});
+    curve.row({told[0]});
   }
 
  private:
+  Real last() const override { return told[0]; }
+  std::string unit(const Domain& domain) const override {
+    if (*reduce == "count") return "1";
+    if (const Column* column = domain.elements().find(field->front()); column && !bonds.given())
+      return column->field().unit;
+    for (const BondTable* table : domain.families())
+      if (const Column* column = table->rows().find(field->front());
+          column && (!bonds.given() || table->name() == *bonds))
+        return column->field().unit;
+    return "1";
+  }
   void gather(const Domain& domain) {
     if (!bonds.given()) {
       if (const Column* column = domain.elements().find(field->front())) return take_elements(domain, *column);

@@ -25,5 +25,6 @@ refuse '<load><hold set="a" axis="x"/></load>'
 refuse '<load><hold set="a" axes="x w"/></load>'
 refuse '<load><pull set="a" axis="x" velocity="0,3 m/s"/></load>'
 refuse '<load><pull set="a" axis="x" velocity="3"/></load>'
+refuse '<load><pull set="a" axis="x" velocity="3 m/s 4 m/s"/></load>'
 refuse '<stage><fill/></stage>'
 echo "${#decks[@]} decks are valid"

@@ -26,9 +26,9 @@ def mistakes(beadwork, plugin, deck):
     wanted += groups.values()
     if plugin["section"] == "move":
         wanted.append("until")
-    # A formula complains of its expression, not by its name.
-    formulas = sum(p["type"] in ("condition", "formula") for p in plugin["parameters"] if p["required"])
-    named_once = sorted(named) == sorted(w for w in wanted if w in named) and len(wanted) - len(named) == formulas
+    # A condition complains of its expression, not by its name.
+    conditions = sum(p["type"] == "condition" for p in plugin["parameters"] if p["required"])
+    named_once = sorted(named) == sorted(w for w in wanted if w in named) and len(wanted) - len(named) == conditions
     return [] if named_once else [f"wanted {wanted}, check named {named}:\n{checked}"]
 
 

@@ -293,5 +293,36 @@ TEST_F(AnExpression, of_any_length_is_evaluated) {
   EXPECT_EQ(value(sum), 501 * 3);
 }
 
+// Each slope against the quotient of differences at places where nothing bends.
+TEST_F(AnExpression, knows_its_slope) {
+  for (const std::string text :
+       {"n^2 + 3*n - 1/n", "2^n", "n^n", "sqrt(n)*n", "sin(n)*cos(2*n) + tan(n/5)", "asin(n/9) + acos(n/8) + atan(n)",
+        "atan2(n, 2) + atan2(2, n)", "exp(-n) + ln(n) + log10(n)", "abs(1 - n) + abs(n)", "min(n, 4) + max(2*n, 1)",
+        "if(n > 2, n^2, 7)", "floor(n + 0.3) + sign(n) + n", "-n*(x/1 mm)", "(n^2)^0.5"}) {
+    const auto expression = compile(text);
+    ASSERT_TRUE(expression) << text << complaints.text();
+    const double n = 2.6, h = 1e-5;
+    const auto at = [&](double value) { return expression->evaluate(std::vector<double>{0.002, value}); };
+    const auto found = expression->evaluate_with_slope(std::vector<double>{0.002, n}, 1);
+    EXPECT_EQ(found.value, at(n)) << text;
+    EXPECT_NEAR(found.slope, (at(n + h) - at(n - h)) / (2 * h), 1e-8 * std::max(1.0, std::abs(found.slope))) << text;
+  }
+}
+
+TEST_F(AnExpression, what_does_not_change_has_no_slope_where_others_have_none_that_is_finite) {
+  EXPECT_EQ(compile("sqrt(0*n) + 0^1.5 + abs(n)")->evaluate_with_slope(std::vector<double>{0, 0}, 1).slope, 1);
+  EXPECT_EQ(compile("n^2")->evaluate_with_slope(std::vector<double>{0, 0}, 1).slope, 0);
+}
+
+TEST_F(AnExpression, knows_where_it_bends) {
+  using testing::ElementsAre;
+  using testing::IsEmpty;
+  EXPECT_THAT(compile("if(n < 5, 1, 2) + abs(3 - n)")->kinks(1), ElementsAre(3, 5));
+  EXPECT_THAT(compile("max(2*n - 1, 0)*min(n/4, (n - 3)*2)")->kinks(1), ElementsAre(0.5, 24.0 / 7));
+  EXPECT_THAT(compile("if(n > 1 and n <= 1.5 or not (n + 1) == 9, 1, 2)")->kinks(1), ElementsAre(1, 1.5, 8));
+  EXPECT_THAT(compile("abs(sin(n)) + n^2 + if(x > 1 mm, 1, 2)")->kinks(1), IsEmpty());
+  EXPECT_THAT(compile("if(n/0 < 5, 1, 2)")->kinks(1), IsEmpty());
+}
+
 }  // namespace
 }  // namespace beadwork
