@@ -202,7 +202,7 @@ TEST(Turning, twists_a_beam_by_the_torque_of_its_section) {
       const char* loads :
       {R"(<turn set="right" about="5 0 0 mm" axis="x" velocity="13.33333333333333333 rad/s" rise="50 us"/>)",
        R"(<turn set="right" axis="x" velocity="13.33333333333333333 rad/s" rise="50 us"/><hold set="right" axes="x y z ry rz"/>)"}) {
-    const auto run = twisted_beam(loads, "", curves);
+    const auto run = twisted_beam(loads, R"(time-step="0.05 us")", curves);
     ASSERT_EQ(run.failure, "");
     const auto& last = run.curves.at("force").back();
     ASSERT_NEAR(last.at("turn") / turn, 1, 2e-3);  // a step late
@@ -255,7 +255,7 @@ TEST(Turning, of_a_clamp_does_not_come_with_the_break_of_its_beam) {
     <bond><cohesive-beam name="beam" between="left right" young="100 GPa" radius-ratio="0.5"/></bond>
     <fail><bond-stress of="beam" strength="20 MPa"/></fail>
     <load><hold set="left" axes="x y z rx ry rz"/><turn set="right" about="0 0 0 mm" axis="z" velocity="100 rad/s"/></load>
-    <move><verlet until="50 us"/></move></scene>)",
+    <move><verlet time-step="0.1 us" until="50 us"/></move></scene>)",
                             {});
   ASSERT_EQ(scene->domain->breaks().breaks.size(), 1u);
   const Quat q = scene->domain->elements().column("orientation").view<Quat>()[0];
