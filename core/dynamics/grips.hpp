@@ -115,15 +115,20 @@ class Grips {
 
   /// Notes where what is gripped stands; to be called before places and turns advance.
   void before_advance(Workings& w, const Motion& all) {
-    each_grip(w, all, [&](std::size_t, Constraint& c, Gripped& of) { of.before_advance(all, way(w, c)); });
+    const Moment& now = w.moment();
+    ways_.resize(grips_.size());
+    each_grip(w, all, [&](std::size_t k, const Constraint& c, Gripped& of) {
+      ways_[k] = {c.at(now.time), c.at(now.time + now.time_step), now.time_step};
+      of.before_advance(all, ways_[k]);
+    });
   }
 
   /// Puts what is gripped where it has to be at the end of the step, and does the work of the old reaction's half.
   void after_advance(Workings& w, const Motion& all, Real beta) {
     each_grip(w, all, [&](std::size_t k, Constraint& c, const Gripped& of) {
-      const Way on = way(w, c);
-      c.work += 0.5 * (c.reaction - weights_[k] * on.from.acceleration / beta) * on.moved();
-      of.after_advance(all, on);
+      const Way& way = ways_[k];
+      c.work += 0.5 * (c.reaction - weights_[k] * way.from.acceleration / beta) * way.moved();
+      of.after_advance(all, way);
     });
   }
 
@@ -163,11 +168,6 @@ class Grips {
     return std::make_unique<GrippedMean>(std::move(carrying), c.axis);
   }
 
-  static Way way(Workings& w, const Constraint& c) {
-    const Moment& now = w.moment();
-    return {c.at(now.time), c.at(now.time + now.time_step), now.time_step};
-  }
-
   // f(number, constraint, what it holds) of each that holds something which moves.
   template <class F>
   void each_grip(Workings& w, const Motion& all, const F& f) const {
@@ -189,6 +189,7 @@ class Grips {
 
   std::vector<std::unique_ptr<Gripped>> grips_;  // of the constraints, one by one
   std::vector<Real> weights_;
+  std::vector<Way> ways_;  // of the step that is being made
   std::vector<Index> rows_;
   std::vector<unsigned char> held_,
       driven_;  // bit `axis`: prescribed there, of the element itself or of a mean; of itself
