@@ -1,58 +1,45 @@
 #pragma once
-// Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), each element by itself or their mean.
-// Axes 0..2 are places, 3..5 are turns: those are held still, which spins and torques alone see to.
+// Prescribed motions inside an explicit scheme: rows (element, axis) = value(t), of each element by itself, of their
+// mean, or of a set that turns as a body (gripped.hpp). Axes 0..2 are places, 3..5 are turns.
 //
 // Work of a step: the inertia of what is gripped takes just the change of its kinetic energy, which prescribed
 // velocities tell whatever kinks they have. The rest of the reaction does that of the trapezoid, between what it is
 // after the bonds of the last step have broken and what it is before those of this step do: of second order in the
-// step. docs/theory/verlet.md
+// step. Of a turn the reaction is a torque, the way an angle and the inertia that about the axis. docs/theory/verlet.md
 //
 // A mean leaves out debris. A loose element, which no bond holds, would take its share of the force and fly away, and
 // the mean would follow it instead of the specimen. What breaks loose later is left out from then on.
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/domain/bodies.hpp"
-#include "core/plugin/kinds.hpp"
+#include "core/dynamics/gripped.hpp"
 
 namespace beadwork {
-
-/// What grips take hold of along one kind of axis: rates, the loads that change them, and the inertia in between.
-struct Gripped {
-  View<Vec3> rate, load;     ///< velocity and force, or spin and torque; null where nothing turns
-  View<const Real> inertia;  ///< mass, or moment of inertia
-};
 
 class Grips {
  public:
   Grips() = default;
   /// Takes hold of the sets, with the bonds that stood after step `when`.
-  Grips(Workings& w, std::int64_t when) : held_(static_cast<std::size_t>(w.domain().size()), 0), driven_(held_) {
+  Grips(Workings& w, const Motion& all, std::int64_t when)
+      : held_(static_cast<std::size_t>(w.domain().size()), 0), driven_(held_) {
     std::vector<const BondTable*> tables;
     for (const auto& [law, table] : w.laws()) tables.push_back(table);
     std::vector<Index> body;
     std::vector<char> averaged(held_.size(), 0);
     for (const Constraint& c : w.constraints()) {
-      const Set& all = w.domain().set(c.set);
       if (c.grip == Grip::mean && body.empty()) body = bodies(w.domain(), tables, when);
-      sets_.push_back(c.grip == Grip::mean ? without_debris(all, body) : all);
-      if (sets_.back().size() < all.size())
-        w.log().say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong "
-                                                         "to a small fragment, and are left out of its mean",
-                                                         all.size() - sets_.back().size(), all.size(), c.set));
-      axes_.push_back(c.axis);
-      averages_.push_back(c.grip == Grip::mean);
-      means_.push_back(0);
-      weights_.push_back(c.axis < 3 ? weight(c.grip, sets_.back(), w.domain().elements().column("mass").view<Real>())
-                                    : 0);
-      for (const Index row : sets_.back()) {
-        const auto bit = static_cast<unsigned char>(1 << c.axis);
-        held_[static_cast<std::size_t>(row)] |= bit;
-        if (c.grip == Grip::each) driven_[static_cast<std::size_t>(row)] |= bit;
+      grips_.push_back(take_hold(w, c, body));
+      weights_.push_back(grips_.back()->moves(all) ? grips_.back()->weight(all) : 0);
+      for (const Index row : grips_.back()->set()) {
+        const auto bits = static_cast<unsigned char>(c.prescribes());
+        held_[static_cast<std::size_t>(row)] |= bits;
+        if (c.grip == Grip::each) driven_[static_cast<std::size_t>(row)] |= bits;
         if (c.grip == Grip::mean) averaged[static_cast<std::size_t>(row)] = 1;
       }
     }
@@ -69,31 +56,20 @@ class Grips {
   }
 
   /// Rates that jump at the start of a stage: an impulse of the grip, whose work is the kinetic energy it brings.
-  void seize(Workings& w, const Gripped& places, const Gripped& turns, Real beta) {
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      Constraint& c = w.constraints()[k];
-      const Gripped& of = c.axis < 3 ? places : turns;
-      if (!of.rate) continue;
-      const Real before = kinetic(sets_[k], of, c.axis % 3);
-      set_rate(c, sets_[k], c.at(w.moment().time).velocity, of);
-      c.work += (kinetic(sets_[k], of, c.axis % 3) - before) / beta;
-    }
+  void seize(Workings& w, const Motion& all, Real beta) {
+    each_grip(w, all, [&](std::size_t, Constraint& c, Gripped& of) {
+      const Real before = of.kinetic(all);
+      of.set_rates(all, c.at(w.moment().time));
+      c.work += (of.kinetic(all) - before) / beta;
+    });
   }
 
   /// What a mean keeps from moving its set: of sum |F|^2/m the part of the set's mean, (sum F/m)^2 / sum 1/m, over all
   /// means [N^2/kg].
-  Real held_by_means(const Gripped& places, const Gripped& turns) const {
+  Real held_by_means(const Motion& motion) const {
     Real all = 0;
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      const Gripped& of = axes_[k] < 3 ? places : turns;
-      if (!averages_[k] || !of.load || sets_[k].empty()) continue;
-      Real pull = 0, weight = 0;
-      for (const Index row : sets_[k]) {
-        pull += of.load.at(row, axes_[k] % 3) / of.inertia[row];
-        weight += 1 / of.inertia[row];
-      }
-      all += pull * pull / weight;
-    }
+    for (const auto& of : grips_)
+      if (of->moves(motion)) all += of->held_as_mean(motion);
     return all;
   }
 
@@ -112,152 +88,91 @@ class Grips {
 
   /// Once bonds have broken at the end of a step: the reactions for the half step to come are those of the forces that
   /// are left. The forces themselves stay as they are, for places and rates that are prescribed follow from no force.
-  void bonds_broke(Workings& w, const Gripped& places, const Gripped& turns, Real beta) const {
-    each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
-      const Real lacking = missing(c, sets_[k], of, c.at(w.moment().time).acceleration / beta);
-      c.reaction += c.grip == Grip::each ? lacking : lacking * static_cast<Real>(sets_[k].size());
+  void bonds_broke(Workings& w, const Motion& all, Real beta) const {
+    each_grip(w, all, [&](std::size_t, Constraint& c, const Gripped& of) {
+      const Lack lack = of.lacking(all, c.at(w.moment().time), beta);
+      c.reaction += lack.along;
+      if (c.body)
+        for (std::size_t axis = 0; axis < 3; ++axis) c.body->forces[axis] += lack.force[static_cast<int>(axis)];
     });
   }
 
   /// Members that these grips, made anew after breaks, have let go still carry their share of the reaction in the half
   /// step to come. Rates are those of the full step.
-  void take_over(Workings& w, const Grips& before, const Gripped& places, const Gripped& turns) const {
+  void take_over(Workings& w, const Grips& before, const Motion& motion) const {
     const Real dt = w.moment().time_step;
-    each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
-      const Set& all = before.sets_[k];
-      if (c.axis >= 3 || all.size() == sets_[k].size()) return;
+    each_grip(w, motion, [&](std::size_t k, Constraint& c, const Gripped& of) {
+      const Set& all = before.grips_[k]->set();
+      if (c.axis >= 3 || all.size() == of.set().size()) return;
       const Real share = c.reaction / static_cast<Real>(all.size());
       for (const Index row : all)
         if (!(held(row) >> c.axis & 1))
-          c.work += 0.5 * share * dt * (of.rate.at(row, c.axis) + 0.5 * dt * of.load.at(row, c.axis) / of.inertia[row]);
-      c.reaction = share * static_cast<Real>(sets_[k].size());
+          c.work += 0.5 * share * dt *
+                    (motion.velocity.at(row, c.axis) + 0.5 * dt * motion.force.at(row, c.axis) / motion.mass[row]);
+      c.reaction = share * static_cast<Real>(of.set().size());
     });
   }
 
-  /// Notes where what is gripped stands; to be called before places advance.
-  void before_advance(Workings& w, const View<Vec3>& position) {
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      const Constraint& c = w.constraints()[k];
-      if (c.axis < 3 && c.grip == Grip::mean)
-        means_[k] = mean(sets_[k], [&](Index row) { return position.at(row, c.axis); });
-    }
-    if (places_.empty())
-      for (const Set& set : sets_) places_.emplace_back(set.size());
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      const Constraint& c = w.constraints()[k];
-      if (c.axis >= 3 || c.grip != Grip::each) continue;
-      for (std::size_t n = 0; n < sets_[k].size(); ++n) places_[k][n] = position.at(sets_[k][n], c.axis);
-    }
+  /// Notes where what is gripped stands; to be called before places and turns advance.
+  void before_advance(Workings& w, const Motion& all) {
+    const Moment& now = w.moment();
+    ways_.resize(grips_.size());
+    each_grip(w, all, [&](std::size_t k, const Constraint& c, Gripped& of) {
+      ways_[k] = {c.at(now.time), c.at(now.time + now.time_step), now.time_step};
+      of.before_advance(all, ways_[k]);
+    });
   }
 
   /// Puts what is gripped where it has to be at the end of the step, and does the work of the old reaction's half.
-  void after_advance(Workings& w, const View<Vec3>& position, const View<const Real>& mass, Real beta) {
-    const Moment& now = w.moment();
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      Constraint& c = w.constraints()[k];
-      if (c.axis >= 3) continue;
-      const PrescribedMotion here = c.at(now.time);
-      const Real moved = c.at(now.time + now.time_step).displacement - here.displacement;
-      c.work += 0.5 * (c.reaction - weights_[k] * here.acceleration / beta) * moved;
-      if (c.grip == Grip::each) {
-        for (std::size_t n = 0; n < sets_[k].size(); ++n) position.at(sets_[k][n], c.axis) = places_[k][n] + moved;
-        continue;
-      }
-      const Real reached = mean(sets_[k], [&](Index row) { return position.at(row, c.axis); });
-      shift(sets_[k], means_[k] + moved - reached, position, c.axis, mass);
-    }
+  void after_advance(Workings& w, const Motion& all, Real beta) {
+    each_grip(w, all, [&](std::size_t k, Constraint& c, const Gripped& of) {
+      const Way& way = ways_[k];
+      c.work += 0.5 * (c.reaction - weights_[k] * way.from.acceleration / beta) * way.moved();
+      of.after_advance(all, way);
+    });
   }
 
   /// Replaces the force on what is gripped by the one that gives the prescribed acceleration; the difference is the
   /// reaction, and does its half of the work of the step that has just been made.
-  void react(Workings& w, const Gripped& places, const Gripped& turns, Real beta) {
+  void react(Workings& w, const Motion& all, Real beta) {
     const Moment& now = w.moment();
-    each_grip(w, places, turns, [&](std::size_t k, Constraint& c, const Gripped& of) {
-      const Set& set = sets_[k];
-      const int axis = c.axis % 3;
+    each_grip(w, all, [&](std::size_t k, Constraint& c, const Gripped& of) {
       const PrescribedMotion here = c.at(now.time);
-      const Real a = here.acceleration / beta;
-      const Real lacking = missing(c, set, of, a);
-      if (c.grip == Grip::each) {
-        for (const Index row : set) of.load.at(row, axis) = of.inertia[row] * a;
-        c.reaction = lacking;
-      } else {
-        for (const Index row : set) of.load.at(row, axis) += lacking;
-        c.reaction = lacking * static_cast<Real>(set.size());
-      }
+      const Lack lack = of.impose(all, here, beta);
+      c.reaction = lack.along;
+      if (c.body)
+        for (std::size_t axis = 0; axis < 3; ++axis) c.body->forces[axis] = lack.force[static_cast<int>(axis)];
       if (now.step == now.stage_step) return;
       const PrescribedMotion before = c.at(now.time - now.time_step);
-      c.work += 0.5 * (c.reaction - weights_[k] * a) * (here.displacement - before.displacement);
+      c.work +=
+          0.5 * (c.reaction - weights_[k] * (here.acceleration / beta)) * (here.displacement - before.displacement);
       c.work += 0.5 * weights_[k] / beta * (here.velocity * here.velocity - before.velocity * before.velocity);
     });
   }
 
-  void after_correct(Workings& w, const Gripped& places, const Gripped& turns) {
-    const Moment& now = w.moment();
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      const Constraint& c = w.constraints()[k];
-      const Gripped& of = c.axis < 3 ? places : turns;
-      if (of.rate) set_rate(c, sets_[k], c.at(now.time).velocity, of);
-    }
+  void after_correct(Workings& w, const Motion& all) {
+    each_grip(w, all,
+              [&](std::size_t, const Constraint& c, const Gripped& of) { of.set_rates(all, c.at(w.moment().time)); });
   }
 
  private:
-  // f(number, constraint, rates and loads of its kind of axis) of each that holds something which moves.
+  static std::unique_ptr<Gripped> take_hold(Workings& w, const Constraint& c, const std::vector<Index>& body) {
+    const Set& all = w.domain().set(c.set);
+    if (c.body) return std::make_unique<GrippedBody>(all, c, w.domain().elements().column(c.body->from).view<Vec3>());
+    if (c.grip == Grip::each) return std::make_unique<GrippedEach>(all, c.axis);
+    Set carrying = without_debris(all, body);
+    if (carrying.size() < all.size())
+      w.log().say_once("mean of " + c.set, fmt::format("{} of the {} elements of '{}' have no bond left, or belong "
+                                                       "to a small fragment, and are left out of its mean",
+                                                       all.size() - carrying.size(), all.size(), c.set));
+    return std::make_unique<GrippedMean>(std::move(carrying), c.axis);
+  }
+
+  // f(number, constraint, what it holds) of each that holds something which moves.
   template <class F>
-  void each_grip(Workings& w, const Gripped& places, const Gripped& turns, const F& f) const {
-    for (std::size_t k = 0; k < sets_.size(); ++k) {
-      Constraint& c = w.constraints()[k];
-      const Gripped& of = c.axis < 3 ? places : turns;
-      if (of.load) f(k, c, of);
-    }
-  }
-
-  // What the loads lack of the acceleration `a`: in all where each element has it, for each element where the mean
-  // does.
-  static Real missing(const Constraint& c, const Set& set, const Gripped& of, Real a) {
-    const int axis = c.axis % 3;
-    if (c.grip == Grip::mean) {
-      const Real free = mean(set, [&](Index row) { return of.load.at(row, axis) / of.inertia[row]; });
-      return (a - free) / mean(set, [&](Index row) { return 1 / of.inertia[row]; });
-    }
-    Real sum = 0;
-    for (const Index row : set) sum += of.inertia[row] * a - of.load.at(row, axis);
-    return sum;
-  }
-
-  // What the motion of all is worth in kinetic energy: 1/2 of this times the square of the prescribed velocity.
-  static Real weight(Grip grip, const Set& set, const View<const Real>& mass) {
-    const auto count = static_cast<Real>(set.size());
-    return grip == Grip::each ? count * mean(set, [&](Index row) { return mass[row]; })
-                              : count / mean(set, [&](Index row) { return 1 / mass[row]; });
-  }
-
-  static void set_rate(const Constraint& c, const Set& set, Real v, const Gripped& of) {
-    const int axis = c.axis % 3;
-    if (c.grip == Grip::each) {
-      for (const Index row : set) of.rate.at(row, axis) = v;
-      return;
-    }
-    shift(set, v - mean(set, [&](Index row) { return of.rate.at(row, axis); }), of.rate, axis, of.inertia);
-  }
-
-  static Real kinetic(const Set& set, const Gripped& of, int axis) {
-    Real twice = 0;
-    for (const Index row : set) twice += of.inertia[row] * of.rate.at(row, axis) * of.rate.at(row, axis);
-    return 0.5 * twice;
-  }
-
-  template <class F>
-  static Real mean(const Set& set, const F& f) {
-    Real sum = 0;
-    for (const Index row : set) sum += f(row);
-    return sum / static_cast<Real>(set.size());
-  }
-
-  // Changes the mean by `by` as a force shared equally would: light elements give way more.
-  static void shift(const Set& set, Real by, const View<Vec3>& of, int axis, const View<const Real>& mass) {
-    const Real scale = by / mean(set, [&](Index row) { return 1 / mass[row]; });
-    for (const Index row : set) of.at(row, axis) += scale / mass[row];
+  void each_grip(Workings& w, const Motion& all, const F& f) const {
+    for (std::size_t k = 0; k < grips_.size(); ++k)
+      if (grips_[k]->moves(all)) f(k, w.constraints()[k], *grips_[k]);
   }
 
   void note_bonds(const Domain& domain, const std::vector<const BondTable*>& tables,
@@ -272,12 +187,10 @@ class Grips {
     }
   }
 
-  std::vector<Set> sets_;
-  std::vector<int> axes_;
-  std::vector<char> averages_;
+  std::vector<std::unique_ptr<Gripped>> grips_;  // of the constraints, one by one
+  std::vector<Real> weights_;
+  std::vector<Way> ways_;  // of the step that is being made
   std::vector<Index> rows_;
-  std::vector<Real> means_, weights_;
-  std::vector<std::vector<Real>> places_;
   std::vector<unsigned char> held_,
       driven_;  // bit `axis`: prescribed there, of the element itself or of a mean; of itself
   std::set<std::pair<Index, Index>> bonds_of_means_;  // (family, id) of the bonds that hold members of a mean

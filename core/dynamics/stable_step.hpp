@@ -33,7 +33,9 @@ StepLimit elastic_limit(Workings& w, const View<const Real>& mass, const View<co
   Mobility mobility(m, turning);
   for (const Constraint& c : w.constraints())
     if (c.grip == Grip::each)
-      for (const Index row : domain.set(c.set)) mobility.hold(row, c.axis);
+      for (int axis = 0; axis < 6; ++axis)
+        if (c.prescribes() >> axis & 1)
+          for (const Index row : domain.set(c.set)) mobility.hold(row, axis);
 
   // Each chunk's live bonds follow those of the chunks before, whichever thread asks their law.
   struct Part {

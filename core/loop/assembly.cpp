@@ -77,7 +77,7 @@ std::vector<Constraint> Stage::constraints() const {
     }
   for (const Filler* filler : fillers)
     for (Constraint& c : blaming(*filler, "constraints", [&] { return filler->constraints(); })) {
-      if (std::any_of(all.begin(), all.end(), [&](const Constraint& o) { return o.set == c.set && o.axis == c.axis; }))
+      if (std::any_of(all.begin(), all.end(), [&](const Constraint& o) { return o.set == c.set && (o.prescribes() & c.prescribes()); }))
         continue;
       c.place = filler->at().where();
       all.push_back(std::move(c));

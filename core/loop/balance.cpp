@@ -28,7 +28,7 @@ class WithoutKinetic final : public EnergySink {
 Real largest_force(std::span<const Constraint> constraints) {
   Real largest = 0;
   for (const Constraint& c : constraints)
-    if (c.axis < 3) largest = std::max(largest, std::abs(Real(c.reaction)));
+    largest = std::max({largest, std::abs(c.load()), c.body ? c.force().cwiseAbs().maxCoeff() : 0});
   return largest;
 }
 
@@ -41,8 +41,7 @@ Real unbalanced_force(const Domain& domain, std::span<const Constraint> constrai
     for (int axis = 0; axis < 3; ++axis)
       sum[axis] = fixed_sum(domain.size(), [&](Index i) { return force.at(i, axis); });
   } else {
-    for (const Constraint& c : constraints)
-      if (c.axis < 3) sum[c.axis] += c.reaction;
+    for (const Constraint& c : constraints) sum += c.force();
   }
   return sum.cwiseAbs().maxCoeff();
 }
@@ -136,8 +135,7 @@ void Balance::note_work() {
   ledger_.note_work(work, state_.initial_energy);
   const std::vector<Constraint>& held = state_.held();
   quality_.note_load(
-      held.size(), [&](std::size_t k) -> Real { return held[k].axis < 3 ? Real(held[k].reaction) : 0; },
-      !state_.domain().breaks().breaks.empty());
+      held.size(), [&](std::size_t k) { return held[k].load(); }, !state_.domain().breaks().breaks.empty());
 }
 
 Ledger::Verdict Balance::look() {

@@ -44,13 +44,15 @@ void check_constraints(const Domain& domain, const Stage& stage, std::span<const
   for (const Constraint& c : constraints) {
     const auto by = load_of(c);
     check_constraint(c, domain, by != stage.loads.end() ? static_cast<const Plugin&>(**by) : stage.mover());
-    for (const Index row : domain.set(c.set)) {
-      const auto [there, fresh] = taken.try_emplace({row, c.axis}, &c);
-      if (fresh) continue;
-      static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
-      refuse((*by)->at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}",
-                                      names[c.axis], c.set, there->second->set, there->second->by));
-    }
+    for (const Index row : domain.set(c.set))
+      for (int axis = 0; axis < 6; ++axis) {
+        if (!(c.prescribes() >> axis & 1)) continue;
+        const auto [there, fresh] = taken.try_emplace({row, axis}, &c);
+        if (fresh) continue;
+        static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
+        refuse((*by)->at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}",
+                                        names[axis], c.set, there->second->set, there->second->by));
+      }
   }
 }
 

@@ -71,18 +71,18 @@ Rigid felt(const Gathered& body, const Vec3& place, int axis) {
   return Rigid::Unit(axis);
 }
 
-// Each member by itself: of order 1 for each body that the set is a part of.
-void support_each(All& all, const Domain& domain, const Constraint& c, const std::vector<Index>& body) {
+// Each member by itself along an axis: of order 1 for each body that the set is a part of.
+void support_each(All& all, const Domain& domain, const Set& set, int axis, const std::vector<Index>& body) {
   const auto x = domain.elements().column("position").view<Vec3>();
   struct Sum {
     Index count = 0;
     RigidMatrix squares = RigidMatrix::Zero();
   };
   std::map<Index, Sum> sums;
-  for (const Index row : domain.set(c.set)) {
+  for (const Index row : set) {
     const auto of = all.find(body[static_cast<std::size_t>(row)]);
     if (of == all.end()) continue;
-    const Rigid r = felt(of->second, x[row], c.axis);
+    const Rigid r = felt(of->second, x[row], axis);
     Sum& sum = sums[of->first];
     ++sum.count;
     sum.squares += r * r.transpose();
@@ -157,8 +157,12 @@ FreeMotions FreeMotions::find(Domain& domain, std::span<const BondTable* const> 
   for (auto& entry : all) weigh(entry.second, domain, turning);
   Index means = 0;
   for (const Constraint& c : constraints) {
-    if (c.axis >= 3 && !turning) continue;
-    c.grip == Grip::mean ? support_mean(all, domain, c, body, means++) : support_each(all, domain, c, body);
+    if (c.grip == Grip::mean) {
+      if (!c.turns() || turning) support_mean(all, domain, c, body, means++);
+      continue;
+    }
+    for (int axis = 0; axis < (turning ? 6 : 3); ++axis)
+      if (c.prescribes() >> axis & 1) support_each(all, domain, domain.set(c.set), axis, body);
   }
   hold_by_shared(all, means);
   std::vector<std::pair<const Gathered*, RigidModes>> free;

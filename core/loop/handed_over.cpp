@@ -60,6 +60,8 @@ void check_constraint(const Constraint& c, const Domain& domain, const Plugin& b
   if (!domain.sets().contains(c.set)) blame(by, fmt::format("constrains set '{}', which is not there", c.set));
   if (c.axis < 0 || c.axis > 5)
     blame(by, fmt::format("constrains axis {} of set '{}': axes are 0 to 5", c.axis, c.set));
+  if (c.body && (!c.turns() || c.grip != Grip::each))
+    blame(by, fmt::format("has set '{}' turn as a body, along axis {} or by its mean", c.set, c.axis));
   if (!c.motion) blame(by, fmt::format("constrains set '{}' without a motion", c.set));
 }
 

@@ -16,7 +16,7 @@ template <class F>
 Real largest(std::span<const Constraint> constraints, const std::string& set, const F& value) {
   Real largest = 0;
   for (const Constraint& c : constraints)
-    if (c.driven && (set.empty() || c.set == set)) largest = std::max(largest, std::abs(value(c)));
+    if (c.pulls() && (set.empty() || c.set == set)) largest = std::max(largest, std::abs(value(c)));
   return largest;
 }
 
@@ -34,7 +34,7 @@ Real driven_force(std::span<const Constraint> constraints, const std::string& se
 std::optional<Real> reach_of(std::span<const Constraint> constraints, const std::string& set) {
   std::optional<Real> reach;
   for (const Constraint& c : constraints)
-    if (c.driven && (set.empty() || c.set == set)) reach = std::max(reach.value_or(0), c.reach);
+    if (c.pulls() && (set.empty() || c.set == set)) reach = std::max(reach.value_or(0), c.reach);
   return reach;
 }
 

@@ -1,5 +1,7 @@
 #include "core/loop/run_state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace beadwork {
@@ -56,6 +58,10 @@ void RunState::keep_constraints() {
   for (auto& of_stage : constraints)
     for (Constraint& c : of_stage) {
       c.reaction.stand_in(list, "reaction", "N", "Force that keeps a constraint", row);
+      if (c.body)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          c.body->forces[axis].stand_in(list, fmt::format("force-{}", "xyz"[axis]), "N",
+                                        "Force that keeps a body that turns", row);
       c.work.stand_in(list, "work", "J", "Work of a constraint", row++);
     }
 }

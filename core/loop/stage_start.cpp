@@ -9,6 +9,7 @@
 #include "core/loop/blame.hpp"
 #include "core/loop/connect.hpp"
 #include "core/loop/filling.hpp"
+#include "core/mechanics/rigid_turn.hpp"
 
 namespace beadwork {
 
@@ -41,6 +42,19 @@ void connect_family(RunState& state, BondLaw& law, BondTable& table, const Log& 
       fmt::format("bond family '{}': {} bonds{}{}", law.family(), table.size(), remark.empty() ? "" : "; ", remark));
   const std::string caution = blaming(law, "caution", [&] { return law.caution(); });
   if (!caution.empty()) log.warn(fmt::format("{}: bond family '{}': {}", law.at().where(), law.family(), caution));
+}
+
+// The same on resume: of places those when the turn began count.
+Real lever_of(const Domain& domain, const Constraint& c) {
+  const auto radius = domain.elements().column("radius").view<Real>();
+  Real lever = 0;
+  for (const Index row : domain.set(c.set)) {
+    const Vec3 arm =
+        c.body ? Circles(c.axis - 3, c.body->about).arm(domain.elements().column(c.body->from).view<Vec3>()[row])
+               : Vec3(Vec3::Zero());
+    lever = std::max(lever, arm.norm() + radius[row]);
+  }
+  return lever;
 }
 
 }  // namespace
@@ -97,6 +111,7 @@ void begin_constraints(RunState& state) {
   for (Constraint& c : state.held()) {
     const bool stood = state.stage_number() > 0 &&
                        std::any_of(first.begin(), first.end(), [&](const Load* load) { return load->id() == c.by; });
+    if (c.turns()) c.lever = lever_of(state.domain(), c);
     c.began = stood ? 0 : state.moment.stage_start;
   }
 }

@@ -237,7 +237,7 @@ std::vector<Until::Prospect> Until::prospects(
 std::vector<Peak> peaks_of(std::span<const Constraint> constraints) {
   std::vector<Peak> peaks;
   for (const Constraint& c : constraints)
-    if (c.driven && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; }))
+    if (c.pulls() && std::none_of(peaks.begin(), peaks.end(), [&](const Peak& p) { return p.set == c.set; }))
       peaks.push_back({c.set, {}, {}});
   return peaks;
 }

@@ -99,7 +99,7 @@ class Verlet final : public Mover {
     position_ = w.domain().elements().column("position").view<Vec3>();
     law_damping_.prepare(w);
     if (!resumed) gripped[0] = static_cast<Real>(w.moment().stage_step);
-    grips_ = Grips(w, std::llround(gripped[0]));
+    grips_ = Grips(w, motion(), std::llround(gripped[0]));
     const std::vector<Break>& breaks = w.domain().breaks().breaks;
     seen_breaks_ = static_cast<std::size_t>(std::count_if(
         breaks.begin(), breaks.end(), [&](const Break& b) { return !resumed || b.step < w.moment().step; }));
@@ -130,12 +130,12 @@ class Verlet final : public Mover {
             "{}: 'time-step' is {:.4g} s, the largest stable one {:.4g} s; a run that gains energy by it is stopped",
             fixed_step.at().where(), w.moment().time_step, largest));
       stable[0] = largest;
-      grips_.seize(w, places(), turns(), *beta);
+      grips_.seize(w, motion(), *beta);
       law_damping_.see(motion());
       w.evaluate(false);
       damping_power[0] = damp(w);
       damping_power[0] += dashpots_.power(velocity.view(), spin.view()) + law_damping_.power(w, motion());
-      grips_.react(w, places(), turns(), *beta);
+      grips_.react(w, motion(), *beta);
     }
     dt_ = w.moment().time_step;
     lag_is_of_ = resumed ? w.moment().step : -1;
@@ -146,17 +146,17 @@ class Verlet final : public Mover {
   void step(Workings& w) override {
     Moment& now = w.moment();
     heed_breaks(w);
-    grips_.before_advance(w, position_);
+    grips_.before_advance(w, motion());
     if (*beta < 1) beta_damping_.remember(motion());
     if ((now.step + 1) % watched_every == 0) quotient_.remember(motion());
     advance_all(w);
-    grips_.after_advance(w, position_, mass.view(), *beta);
+    grips_.after_advance(w, motion(), *beta);
     now.time += now.time_step;
     ++now.step;
     law_damping_.acts() ? evaluate_foreseen(w) : w.evaluate(true);
     const Real taken_by_local = damp(w);
     if (quotient_.remembers()) rayleigh[0] = quotient_.of_step(motion(), grips_, dt_);
-    grips_.react(w, places(), turns(), *beta);
+    grips_.react(w, motion(), *beta);
     behind_ = true;
     if (*beta < 1 || dashpots_.any() || law_damping_.acts() || now.step % watched_every == 0) catch_up(w);
     if (*beta < 1) damped[0] += beta_damping_.taken(motion(), grips_, *beta);
@@ -191,8 +191,7 @@ class Verlet final : public Mover {
   }
   // Without what means hold: their reaction jumps with the forces, and the set as a whole feels nothing.
   Real shadow_energy() const override {
-    return std::max(Real(0),
-                    shadow(motion(), grips_, dt_, 0) - dt_ * dt_ / 8 * grips_.held_by_means(places(), turns()));
+    return std::max(Real(0), shadow(motion(), grips_, dt_, 0) - dt_ * dt_ / 8 * grips_.held_by_means(motion()));
   }
   std::string suspect() const override { return suspect_step(dt_ / stable[0], law_damping_.acts()); }
 
@@ -201,8 +200,6 @@ class Verlet final : public Mover {
     return {count_,      position_,     velocity.view(), force.view(),   orientation.view(),
             spin.view(), torque.view(), mass.view(),     inertia.view(), radius.view()};
   }
-  Gripped places() const { return {velocity.view(), force.view(), mass.view()}; }
-  Gripped turns() const { return {spin.view(), torque.view(), inertia.view()}; }
 
   // Local damping makes a force that slows down larger by its share, that of dashpots too, and so the stiffness that
   // limits the step. Dashpots see velocities of half a step ago, which limits it as a stiffness 2 C/dt would, and laws
@@ -249,7 +246,7 @@ class Verlet final : public Mover {
     const VerletRows rows = verlet(w);
     behind_ = false;
     stop_if(w, rows::any_of(count_, [&](const auto& at) { return any(rows.complete(at)); }));
-    grips_.after_correct(w, places(), turns());
+    grips_.after_correct(w, motion());
   }
 
   // What broke since the last step pulls no longer. What broke loose of a mean is let go; what is left is held to the
@@ -262,12 +259,12 @@ class Verlet final : public Mover {
     if (loosened) {
       catch_up(w);
       gripped[0] = static_cast<Real>(w.moment().step);
-      Grips anew(w, w.moment().step);
-      anew.take_over(w, grips_, places(), turns());
+      Grips anew(w, motion(), w.moment().step);
+      anew.take_over(w, grips_, motion());
       grips_ = std::move(anew);
     }
-    grips_.bonds_broke(w, places(), turns(), *beta);
-    if (loosened) grips_.seize(w, places(), turns(), *beta);
+    grips_.bonds_broke(w, motion(), *beta);
+    if (loosened) grips_.seize(w, motion(), *beta);
   }
 
   VerletRows verlet(Workings& w) const { return {motion(), w.moment().time_step, 0.5 * *beta * w.moment().time_step}; }
@@ -276,7 +273,7 @@ class Verlet final : public Mover {
     const VerletRows rows = verlet(w);
     if (behind_) {
       for (const Index row : grips_.rows()) rows.complete(Rows<1>{row});
-      grips_.after_correct(w, places(), turns());
+      grips_.after_correct(w, motion());
     }
     stop_if(w, behind_ ? rows::any_of(count_, [&](const auto& at) { return advance_behind(rows, at); })
                        : rows::any_of(count_, [&](const auto& at) { return any(rows.advance<false>(at)); }));

@@ -73,7 +73,7 @@ class CrackLength final : public Watcher {
     if (!against.given()) return;
     std::set<std::string> driven;
     for (const Constraint& c : constraints)
-      if (c.driven) driven.insert(c.set);
+      if (c.pulls()) driven.insert(c.set);
     if (!driven.contains(*against))
       complaints.error(against.at(),
                        fmt::format("'against' names set '{}', which nothing in <load> drives while it looks{}",
@@ -104,7 +104,7 @@ class CrackLength final : public Watcher {
   Real driven(const Sight& sight) const {
     if (!against.given()) return 0;
     for (const Constraint& c : sight.constraints())
-      if (c.driven && c.set == *against) return std::abs(c.at(sight.moment().time).displacement);
+      if (c.pulls() && c.set == *against) return std::abs(c.at(sight.moment().time).displacement);
     return 0;
   }
 };

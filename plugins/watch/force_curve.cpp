@@ -8,13 +8,18 @@
 
 namespace beadwork {
 
-/// Reaction of a driven set against its displacement, as a curve.
+/// Reaction of a driven set against its displacement, as a curve; or its torque against its turn.
 class ForceCurve final : public Watcher {
  public:
-  static constexpr const char* about = "Reaction of a driven or held set against displacement, as a curve";
+  static constexpr const char* about =
+      "Reaction of a driven or held set against displacement, or torque against turn, as a curve";
   Param<std::string> of{this, {.name = "of", .doc = "Set whose reaction is watched", .role = Role::set}};
   Param<std::string> axis{
-      this, {.name = "axis", .doc = "Axis along which the reaction is taken", .choices = {"x", "y", "z"}}};
+      this,
+      {.name = "axis",
+       .doc = "Axis along which the reaction is taken; rx, ry and rz: the torque about it, of a set that turns as a "
+              "body about its axis, else the sum of the couples on its elements",
+       .choices = {"x", "y", "z", "rx", "ry", "rz"}}};
   Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "force"}};
   Param<std::string> title{
       this, {.name = "title", .doc = "Title of the curve in the report", .fallback = "Force against displacement"}};
@@ -28,15 +33,28 @@ class ForceCurve final : public Watcher {
 
   void choose() override {
     curve.plan.title = *title;
+    if (turns()) {
+      curve.plan.columns = {{"turn", "rad"}, {"torque", "N.m"}};
+      curve.plan.x = "turn";
+      curve.plan.y = {"torque"};
+      if (!title.in_deck()) curve.plan.title = "Torque against turn";
+    }
     if (reference.given()) curve.plan.columns.push_back({"reference", "N"});
   }
 
+  void check(Complaints& complaints) const override {
+    if (turns() && reference.in_deck())
+      complaints.error(reference.at(),
+                       fmt::format("'reference' is a force, but about axis {} there is a torque", *axis));
+  }
+
   void check_stages(std::span<const Constraint> constraints, Complaints& complaints) const override {
+    static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
     std::set<std::string> sets, axes;
     for (const Constraint& c : constraints) {
-      if (c.axis > 2) continue;
       sets.insert(c.set);
-      if (c.set == *of) axes.insert(std::string(1, "xyz"[c.axis]));
+      for (int k = 0; k < 6; ++k)
+        if (c.set == *of && tells(c, k)) axes.insert(names[k]);
     }
     if (axes.empty())
       complaints.error(
@@ -48,17 +66,25 @@ class ForceCurve final : public Watcher {
   }
 
   void look(Sight& sight) override {
-    const int direction = (*axis)[0] - 'x';
+    const int direction = turns() ? 3 + (*axis)[1] - 'x' : (*axis)[0] - 'x';
     Real force = 0;
     Real displacement = 0;
     for (const Constraint& c : sight.constraints()) {
-      if (c.axis != direction || c.set != *of) continue;
-      force += c.reaction;
-      displacement += c.at(sight.moment().time).displacement;
+      if (c.set != *of || !tells(c, direction)) continue;
+      force += c.axis == direction ? Real(c.reaction) : c.force()[direction];
+      if (c.axis == direction) displacement += c.at(sight.moment().time).displacement;
     }
     std::vector<Real> row{displacement, force};
     if (reference.given()) row.push_back((*reference)({&displacement, 1}));
     curve.row(row);
+  }
+
+ private:
+  bool turns() const { return axis->size() == 2; }
+  // The reaction along an axis is known of what is prescribed along it alone, and of a body that turns and is held along
+  // its axis.
+  static bool tells(const Constraint& c, int axis) {
+    return c.axis == axis || (c.body && c.body->along && axis == c.axis - 3);
   }
 };
 

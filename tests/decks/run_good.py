@@ -32,7 +32,7 @@ import same_run  # noqa: E402
 
 UNITS = {"": ("1", 1), "N": ("N", 1), "kN": ("N", 1e3), "mN": ("N", 1e-3), "J": ("J", 1), "mJ": ("J", 1e-3), "m": ("m", 1), "mm": ("m", 1e-3),
          "um": ("m", 1e-6), "nm": ("m", 1e-9), "s": ("s", 1), "ms": ("s", 1e-3), "us": ("s", 1e-6), "m/s": ("m/s", 1), "mm/s": ("m/s", 1e-3),
-         "1/s": ("1/s", 1), "Pa": ("Pa", 1), "MPa": ("Pa", 1e6), "kg": ("kg", 1)}
+         "1/s": ("1/s", 1), "rad": ("rad", 1), "N.m": ("N.m", 1), "Pa": ("Pa", 1), "MPa": ("Pa", 1e6), "kg": ("kg", 1)}
 
 
 class Mistake(Exception):
