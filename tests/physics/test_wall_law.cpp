@@ -242,6 +242,27 @@ TEST(Wall, that_is_pulled_carries_along_what_it_holds_by_friction) {
   EXPECT_NEAR(run.velocity[0][0], 20e-3, 1e-3);
 }
 
+// Cogs: the rim of the roller moves with w R_w, and so does that of the ball, which cannot go elsewhere; until then friction
+// turns it with the torque mu N R, which the roller feels as mu N R_w.
+TEST(Wall, that_turns_turns_what_lies_on_it) {
+  const DeckRun run = run_deck(deck(ball(0, 0, 0.99e-3) + wall(R"(shape="cylinder" at="0 -3 -4 mm" to="0 3 -4 mm" radius="4 mm")"),
+                                    penalty(R"(friction="0.3")", "1 kN/m"),
+                                    R"(<hold set="ball"/><turn set="wall" axis="y" velocity="10 s^-1"/>)", "4 ms",
+                                    R"(<sensor field="spin" component="y" set="ball" name="spin" every="1"/><force-curve name="torque" of="wall" axis="ry" every="1"/>)"));
+  const Real push = 1e3 * 1e-5, inertia = 0.4 * mass * R * R, spin_up = 40 * inertia / (0.3 * push * R);
+  ASSERT_LT(spin_up, 3e-3);
+  const std::string column = "mean";
+  EXPECT_NEAR(run.curves.at("spin").back().at(column), -40, 0.5);
+  for (std::size_t k = 0; k < run.curves.at("spin").size(); ++k) {
+    const Real time = run.curves.at("spin")[k].at("time");
+    if (time < 0.2 * spin_up || time > 0.8 * spin_up) continue;
+    EXPECT_NEAR(run.curves.at("spin")[k].at(column), -40 * time / spin_up, 0.1 * 40);
+    EXPECT_NEAR(run.curves.at("torque")[k].at("torque"), 0.3 * push * 4e-3, 0.02 * 0.3 * push * 4e-3);
+  }
+  EXPECT_NEAR(run.energy("work"), 0.3 * push * 4e-3 * 10 * spin_up, 0.05 * 0.3 * push * 4e-3 * 10 * spin_up);
+  EXPECT_LT(std::abs(run.energy("residual")), 0.01 * run.energy("work"));
+}
+
 TEST(Wall, costs_nothing_where_there_is_none) {
   testing::Parts parts(deck(ball(0, 0, 0) + ball(3e-3, 0, 0), R"(<penalty name="c" between="ball ball" stiffness="1 MN/m"/>)", "", "1"));
   parts.begin();
