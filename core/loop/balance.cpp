@@ -186,7 +186,8 @@ void Balance::find_free_motions() {
   free_ = domain.elements().find("mass") ? FreeMotions::find(domain, tables, state_.held(), turning, state_.moment.step)
                                          : FreeMotions();
   if (state_.held().empty()) return;
-  for (const std::string& line : free_.words()) log_.say(line);
+  const char* unless = state_.stage().contacts.empty() ? "" : ", though contacts may";
+  for (const std::string& line : free_.words()) log_.say(line + unless);
 }
 
 // In the step of the first break, which is complete, with what breaks in it: all may be over before the next look is

@@ -96,9 +96,14 @@ bool take_value(const ParamInfo& info, const Attribute& a, const Scope& scope, C
 }
 
 // A quantity as it may stand for any parameter, "${2*n} mm", is more than an expression knows.
+// As an expression reads it, in which a unit does not begin with a number.
+std::string as_expression(Real value, const std::string& unit) {
+  return unit.starts_with("1/") ? fmt::format("{}/(1 {})", format_number(value), unit.substr(2)) : si(value, unit);
+}
+
 bool take_constant(const ParamInfo& info, const Attribute& a, const Scope& scope, Complaints& c, Formula& value) {
   const auto quantity = read_quantity(a, info.unit, scope, c);
-  if (quantity) value.expression = Expression::compile(si(*quantity, info.unit), a.value_at, scope, {}, c);
+  if (quantity) value.expression = Expression::compile(as_expression(*quantity, info.unit), a.value_at, scope, {}, c);
   return value.expression.has_value();
 }
 

@@ -226,6 +226,82 @@ def heap():
     below("a third of the step: residual over work", residual_over_work(finer.energy), 0.001)
 
 
+def first_drop(force, share):
+    """The largest of a force before it falls by that share for the first time."""
+    top = 0
+    for f in force:
+        top = max(top, f)
+        if top > 0.2 * max(force) and f < (1 - share) * top:
+            return top
+    return top
+
+
+# A bar on two rollers: beam theory while it is whole, then it breaks under the third.
+def three_point_bending():
+    L, b, h, length, E, nu = 20e-3, 3e-3, 4e-3, 24e-3, 0.128 * 10e9, 0.24
+    result = run("three-point-bending/quick.xml", v="0.05 m/s")
+    curve = result.curve("force")
+    way, force = [-u for u in curve["displacement"]], [-f for f in curve["force"]]
+    peak = max(force)
+    rising = [k for k in range(force.index(peak)) if 0.2 * peak < force[k] < 0.7 * peak]
+    slope = numpy.polyfit([way[k] for k in rising], [force[k] for k in rising], 1)[0]
+    I, shear = b * h**3 / 12, 1 + 2.4 * (1 + nu) * (h / L) ** 2
+    near("stiffness over that of a Timoshenko beam, 48 E I/L^3: rollers dent the packing", slope, 48 * E * I / L**3 / shear, 0.3)
+    left, right = result.curve("left")["force"], result.curve("right")["force"]
+    middle = [k for k in rising]
+    near("the rollers below bear what the stamp gives", sum(left[k] + right[k] for k in middle), sum(force[k] for k in middle), 0.03)
+    near("each half of it", sum(left[k] for k in middle), sum(right[k] for k in middle), 0.1)
+    x = [place[0] for _, place, _ in result.breaks()]
+    below("it breaks under the stamp: mean distance of the breaks over the length", abs(sum(x) / len(x) - length / 2) / length, 0.08)
+    below("what is left at the end over the peak", abs(force[-1]) / peak, 0.05)
+    below("lost at breaks and to the scheme over the work", residual_over_work(result.energy), 0.01)
+    strong = run("three-point-bending/quick.xml", strength="60 MPa", v="0.1 m/s", end="120 um")
+    near("twice the strength, twice the peak", max(-f for f in strong.curve("force")["force"]), 2 * peak, 0.1)
+
+
+# 2P/(pi D t) at the load of the first crack, against the strength of a bar of the same packing.
+def brazilian_disc():
+    D, t, a = 20e-3, 5e-3, 8e-3
+    drawn = max(run("brazilian-disc/direct-tension.xml", R="0.4 mm").curve("force")["force"]) / (a * t)
+    result = run("brazilian-disc/quick.xml", R="0.4 mm")
+    split = 2 * first_drop([-f for f in result.curve("force")["force"]], 0.02) / (math.pi * D * t)
+    near("2P/(pi D t) over the strength in direct tension", split, drawn, 0.2)
+    places = [place for _, place, _ in result.breaks()]
+    below("it splits along the line between the jaws: mean distance of the breaks over the radius", sum(abs(p[0]) for p in places) / len(places) / (D / 2), 0.2)
+    below("and all along it: mean height over the radius (0.5 if even)", abs(sum(abs(p[2]) for p in places) / len(places) / (D / 2) - 0.5), 0.3)
+
+
+# Hertz on a layer of finite height.
+def indentation():
+    result = run("indentation/quick.xml")
+    curve = result.curve("force")
+    near("force at the end over Hertz' with a rigid ground below", -curve["force"][-1], curve["reference"][-1], 0.2)
+    E, nu, radius, h = 0.128 * 10e9, 0.24, 20e-3, 6e-3
+    alpha, beta = (1.2876 - 1.4678 * nu + 1.3442 * nu**2) / (1 - nu), (0.6387 - 1.0277 * nu + 1.5164 * nu**2) / (1 - nu)
+    for share in (0.5, 0.75):
+        depth = share * max(-u for u in curve["displacement"])
+        k = next(k for k, u in enumerate(curve["displacement"]) if -u >= depth)
+        chi = math.sqrt(radius * depth) / h
+        ground = 1 + 2 * alpha / math.pi * chi + 4 * alpha**2 / math.pi**2 * chi**2 + 8 / math.pi**3 * (alpha**3 - 4 * math.pi**2 / 15 * beta) * chi**3
+        near(f"the same at {share} of the depth", -curve["force"][k], ground * 4 / 3 * E / (1 - nu**2) * math.sqrt(radius) * depth**1.5, 0.2)
+    below("ledger's residual over work", residual_over_work(result.energy), 1e-6)
+
+
+# Between platens: as stiff as the packing, stronger than when it is drawn.
+def uniaxial_compression():
+    D, h, E = 8e-3, 16e-3, 0.128 * 10e9
+    result = run("uniaxial-compression/quick.xml")
+    curve = result.curve("force")
+    way, force = [-u for u in curve["displacement"]], [-f for f in curve["force"]]
+    peak, A = max(force), math.pi * D**2 / 4
+    rising = [k for k in range(force.index(peak)) if 0.2 * peak < force[k] < 0.7 * peak]
+    slope = numpy.polyfit([way[k] for k in rising], [force[k] for k in rising], 1)[0]
+    near("stiffness, E A/h of the packing: ends are rough", slope, E * A / h, 0.25)
+    below("what is left at the end over the peak", abs(force[-1]) / peak, 0.2)
+    result = run("uniaxial-compression/quick.xml", strength="60 MPa", v="0.2 m/s", end="0.2 mm")
+    near("twice the strength, twice the peak", max(-f for f in result.curve("force")["force"]), 2 * peak, 0.1)
+
+
 # Strains along the three axes and force of the last frame, over those elements that `inside` picks by their places.
 def stretch(result, inside):
     with h5py.File(result.folder / "run.h5") as file:
@@ -299,6 +375,7 @@ def glued_block():
 
 with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
     {"two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar, "notched-bar-rdef": notched_bar_rdef,
+     "three-point-bending": three_point_bending, "brazilian-disc": brazilian_disc, "indentation": indentation, "uniaxial-compression": uniaxial_compression,
      "tension": tension, "heap": heap, "dcb": dcb, "glued-block": glued_block}[CASE]()
 if failed:
     sys.exit(f"{CASE}: out of band: {', '.join(failed)}")

@@ -162,8 +162,8 @@ TEST(Wall, presses_with_a_force_that_both_platens_feel) {
       R"(<pull set="above" axis="z" velocity="-1 mm/s" rise="20 ms"/>)", "100 ms",
       R"(<force-curve of="above" axis="z" every="10"/><force-curve name="below" of="below" axis="z" every="10"/>)"));
   const auto &above = run.curves.at("force").back(), &below = run.curves.at("below").back();
-  const Real u = 90e-6;
-  EXPECT_NEAR(above.at("displacement"), -u, 1e-9);
+  const Real u = -above.at("displacement");
+  EXPECT_NEAR(u, 90e-6, 1e-8);
   EXPECT_NEAR(above.at("force"), -500 * u, 1e-3 * 500 * u);
   EXPECT_NEAR(below.at("force"), 500 * u, 1e-3 * 500 * u);
   EXPECT_NEAR(run.energy("stored"), 250 * u * u, 2e-3 * 250 * u * u);
@@ -239,7 +239,8 @@ TEST(Wall, with_a_mass_is_moved_by_forces) {
 TEST(Wall, that_is_pulled_carries_along_what_it_holds_by_friction) {
   const DeckRun run = run_deck(deck(ball(0, 0, 0.999e-3) + plane, penalty(R"(friction="5" restitution="0.3")", "1 kN/m"),
                                     R"(<gravity set="ball"/><hold set="ball" axes="rx ry rz"/><pull set="wall" axis="x" velocity="20 mm/s" rise="5 ms"/>)", "50 ms"));
-  EXPECT_NEAR(run.velocity[0][0], 20e-3, 1e-3);
+  EXPECT_NEAR(run.position[0][0], 20e-3 * 47.5e-3, 5e-6);  // and swings a little, as nothing damps the hold across
+  EXPECT_NEAR(run.velocity[0][0], 20e-3, 3e-3);
 }
 
 // Cogs: the rim of the roller moves with w R_w, and so does that of the ball, which cannot go elsewhere; until then friction
@@ -247,7 +248,7 @@ TEST(Wall, that_is_pulled_carries_along_what_it_holds_by_friction) {
 TEST(Wall, that_turns_turns_what_lies_on_it) {
   const DeckRun run = run_deck(deck(ball(0, 0, 0.99e-3) + wall(R"(shape="cylinder" at="0 -3 -4 mm" to="0 3 -4 mm" radius="4 mm")"),
                                     penalty(R"(friction="0.3")", "1 kN/m"),
-                                    R"(<hold set="ball"/><turn set="wall" axis="y" velocity="10 s^-1"/>)", "4 ms",
+                                    R"(<hold set="ball"/><turn set="wall" axis="y" velocity="10 rad/s"/>)", "4 ms",
                                     R"(<sensor field="spin" component="y" set="ball" name="spin" every="1"/><force-curve name="torque" of="wall" axis="ry" every="1"/>)"));
   const Real push = 1e3 * 1e-5, inertia = 0.4 * mass * R * R, spin_up = 40 * inertia / (0.3 * push * R);
   ASSERT_LT(spin_up, 3e-3);
