@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The cube of xml-cases/speed/heap.xml in Beadwork and in LAMMPS (its granular package), in turns on one machine: particle steps a second.
+"""The cube of xml-cases/speed/heap.xml in Beadwork, in LAMMPS (its granular package) and in Yade, in turns on one machine: particle steps a second.
 
-Beadwork fills the cube once; places and radii are read from its run.h5, so that both have the same, and the same time step.
-The law is the same but for the rule by which friction is kept when the overlap changes, and for the clipping of pulls.
+Beadwork fills the cube once; places and radii are read from its run.h5, so that all have the same, and the same time step.
+The law is the same but for the rule by which friction is kept when the overlap changes, for how damping is stated, and for the clipping of pulls.
 """
 import argparse
 import json
@@ -18,7 +18,7 @@ import h5py
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 DECK = TOP / "xml-cases/speed/heap.xml"
-YOUNG, POISSON, FRICTION, DENSITY = 50e6, 0.3, 0.5, 2500.0
+YOUNG, POISSON, FRICTION, RESTITUTION, DENSITY = 50e6, 0.3, 0.5, 0.3, 2500.0
 SKIN = 0.3  # over the smallest radius
 
 
@@ -26,6 +26,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--beadwork", default=TOP / "build/release/bin/beadwork")
     parser.add_argument("--lammps", default="lmp")
+    parser.add_argument("--yade", default="yade")
     parser.add_argument("--elements", type=int, default=40000)
     parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--repeats", type=int, default=3)
@@ -40,11 +41,32 @@ def beadwork(options, threads, out):
     return json.loads((out / "summary.json").read_text())
 
 
-def write_lammps(options, run, folder):
+def filled(run):
+    """Places, radii and the time step of what Beadwork began with."""
     with h5py.File(run / "run.h5") as file:
         frame = file["frames"][min(file["frames"])]
         place, radius = frame["elements/position"][:], frame["elements/radius"][:]
-    step = json.loads((run / "summary.json").read_text())["time_step"]
+    return place, radius, json.loads((run / "summary.json").read_text())["time_step"]
+
+
+def write_yade(options, run, folder):
+    place, radius, step = filled(run)
+    (folder / "yade-heap.json").write_text(json.dumps({
+        "young": YOUNG, "poisson": POISSON, "density": DENSITY, "friction": FRICTION, "restitution": RESTITUTION, "skin": SKIN * radius.min(), "held_below": 1.5e-3,
+        "time_step": step, "steps": options.steps, "spheres": [[*x, r] for x, r in zip(place.tolist(), radius.tolist())]}))
+
+
+def yade(options, threads, folder):
+    said = subprocess.run([options.yade, "-n", "-x", f"-j{threads}", HERE / "yade_heap.py"], cwd=folder, capture_output=True, text=True, check=False)
+    found = re.search(r"result: (\{.*\})", said.stdout)
+    if not found:
+        sys.exit(f"Yade failed:\n{said.stdout[-2000:]}{said.stderr[-2000:]}")
+    result = json.loads(found[1])
+    return options.elements * result["steps"] / result["seconds"] / 1e6
+
+
+def write_lammps(options, run, folder):
+    place, radius, step = filled(run)
     low, high = place.min(axis=0) - 5e-3, place.max(axis=0) + 5e-3
     lines = ["spheres", "", f"{len(radius)} atoms", "1 atom types", ""]
     lines += [f"{low[k]} {high[k]} {'xyz'[k]}lo {'xyz'[k]}hi" for k in range(3)] + ["", "Atoms # sphere", ""]
@@ -82,31 +104,31 @@ def lammps(options, processes, folder):
     found = re.search(r"Loop time of ([\d.e+-]+)", said.stdout)
     if not found:
         sys.exit(f"LAMMPS failed:\n{said.stdout[-2000:]}{said.stderr[-2000:]}")
-    return float(found[1])
+    return options.elements * options.steps / float(found[1]) / 1e6
 
 
 def main():
     options = arguments()
     options.out.mkdir(parents=True, exist_ok=True)
-    rates = {}
-    there = shutil.which(options.lammps)
-    if not there:
-        print("LAMMPS is missing: apt-get install lammps")
+    folder, rates = options.out.resolve(), {}
+    others = {"LAMMPS": (options.lammps, "lammps", write_lammps, lammps), "Yade": (options.yade, "yade", write_yade, yade)}
+    for name, (program, package, _, _) in list(others.items()):
+        if not shutil.which(program):
+            print(f"{name} is missing: apt-get install {package}")
+            del others[name]
     for repeat in range(options.repeats):
         for threads in options.threads:
             run = options.out / "heap"
             summary = beadwork(options, threads, run)
             rates.setdefault(("Beadwork", threads), []).append(options.elements * summary["steps"] / summary["loop_seconds"] / 1e6)
-            if there:
+            for name, (_, _, write, go) in others.items():
                 if repeat == 0 and threads == options.threads[0]:
-                    write_lammps(options, run, options.out.resolve())
-                rates.setdefault(("LAMMPS", threads), []).append(options.elements * options.steps / lammps(options, threads, options.out.resolve()) / 1e6)
+                    write(options, run, folder)
+                rates.setdefault((name, threads), []).append(go(options, threads, folder))
     print(f"{options.elements} spheres, {summary['contacts']['grains']} pairs, million particle steps a second: median (lowest, highest)")
     for (program, threads), all_rates in sorted(rates.items()):
-        print(f"  {program:9} on {threads}: {statistics.median(all_rates):6.2f} ({min(all_rates):.2f}, {max(all_rates):.2f})")
-    for threads in options.threads:
-        if there:
-            print(f"  ratio on {threads}: {statistics.median(rates['Beadwork', threads]) / statistics.median(rates['LAMMPS', threads]):.2f}")
+        ratio = statistics.median(rates["Beadwork", threads]) / statistics.median(all_rates)
+        print(f"  {program:9} on {threads}: {statistics.median(all_rates):6.2f} ({min(all_rates):.2f}, {max(all_rates):.2f}); Beadwork is {ratio:.2f} times as fast")
 
 
 if __name__ == "__main__":
