@@ -123,13 +123,19 @@ Expression::Sloped Expression::evaluate_with_slope(std::span<const double> si_va
     const Step& step = steps_[i];
     const auto operation = static_cast<Operation>(step.operation);
     if (operation == Operation::constant) {
-      all[i] = {step.value, 0};
+      all[i] = {step.value, 0, 0};
     } else if (operation == Operation::variable) {
-      all[i] = {si_values[static_cast<std::size_t>(step.a)], step.a == static_cast<int>(variable) ? 1.0 : 0.0};
+      const double value = si_values[static_cast<std::size_t>(step.a)];
+      all[i] = {value, step.a == static_cast<int>(variable) ? 1.0 : 0.0, std::abs(value)};
     } else {
       const Sloped &a = all[step.a], &b = all[step.b], &c = all[step.c];
-      all[i] = {apply(operation, a.value, b.value, c.value),
-                slope(operation, a.value, b.value, c.value, a.slope, b.slope, c.slope)};
+      const auto by = [&](double da, double db, double dc) {
+        return slope(operation, a.value, b.value, c.value, da, db, dc);
+      };
+      const double value = apply(operation, a.value, b.value, c.value);
+      const auto share = [](double noise) { return std::isfinite(noise) ? std::abs(noise) : 0; };
+      all[i] = {value, by(a.slope, b.slope, c.slope),
+                std::abs(value) + share(by(a.noise, 0, 0)) + share(by(0, b.noise, 0)) + share(by(0, 0, c.noise))};
     }
   }
   return all.back();

@@ -55,6 +55,8 @@ class Expression {
   double evaluate(std::span<const double> si_values = {}) const;
   struct Sloped {
     double value, slope;
+    double
+        noise;  ///< how far rounding of the steps, and of the variable, may take the value, over epsilon; first order
   };
   /// With the derivative by one variable, found by the rules of calculus. At a kink it is that of the side where the
   /// variable is larger for abs, and of the branch that is evaluated for if, min and max; a jump has none.

@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/domain/walls.hpp"
+#include "core/domain/near.hpp"
+#include "core/domain/table.hpp"
 
 namespace beadwork {
 
@@ -50,7 +51,8 @@ class BondTable {
   bool is_of_walls() const { return static_cast<bool>(facet_); }
   /// The pair that stands in a row.
   Near near(Index row) const {
-    return {first_[row], second_[row], facet_ ? static_cast<Index>(facet_[row]) : Index{-1}};
+    return {first_[row], second_[row],
+            facet_ && facet_[row] >= 0 && facet_[row] < 2e9 ? static_cast<Index>(facet_[row]) : Index{-1}};
   }
   /// Takes other pairs in place of its own, first < second, sorted; what is known of a pair that stays goes with it, all
   /// else is zero. Returns the rows of pairs that are new. To be cut anew.

@@ -43,6 +43,11 @@ void Domain::reorder(const std::vector<Index>& order) {
   walls_.reorder(row_of);
 }
 
+Pose Domain::pose(Index row) const {
+  const Column* turned = elements_.find("orientation");
+  return {elements_.column("position").view<Vec3>()[row], turned ? turned->view<Quat>()[row] : identity()};
+}
+
 const Set& Domain::set(const std::string& name) const {
   const auto found = sets_.find(name);
   if (found == sets_.end()) throw std::logic_error(fmt::format("no set '{}' in this scene", name));

@@ -9,6 +9,7 @@
 
 #include "core/domain/bond_table.hpp"
 #include "core/domain/break_log.hpp"
+#include "core/domain/walls.hpp"
 
 namespace beadwork {
 
@@ -51,6 +52,8 @@ class Domain {
   const std::vector<const BondTable*>& families() const { return shown_; }
   Index bonds() const;
 
+  /// Where an element stands, and how it is turned; unturned where nothing turns.
+  Pose pose(Index row) const;
   Walls& walls() { return walls_; }
   const Walls& walls() const { return walls_; }
 

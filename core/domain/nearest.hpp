@@ -19,7 +19,7 @@ template <class T>
 struct Nearest {
   Vec<T> normal;      ///< from the facet to the place
   T distance;         ///< negative inside what is full [m]
-  bool meets = true;  ///< this facet is what the place belongs to
+  bool meets = true;  ///< the place lies in the region (of Voronoi) of this facet
 };
 
 namespace facets {
@@ -51,8 +51,9 @@ template <class T>
 bool beyond(const Vec<T>& away, const Vec3& out) {
   const T side = dot(away, as<T>(out));
   if (side > T(0) || side < T(0)) return side > T(0);
-  static const Vec3 aside(0.6180339887498949, 0.4142135623730951, 0.7320508075688772);  // along no edge that one draws
-  return aside.dot(out) > 0;
+  constexpr Real aside[] = {0.6180339887498949, 0.4142135623730951,
+                            0.7320508075688772};  // along no edge that one draws
+  return aside[0] * out[0] + aside[1] * out[1] + aside[2] * out[2] > 0;
 }
 
 /// Of a solid of revolution: how far the place is beyond its side and its ends, both negative inside.
@@ -68,6 +69,16 @@ Nearest<T> of_full_cylinder(const Vec<T>& p, const Vec3& from, const Vec3& along
   if (!(side > T(0)) || !(beyond_end > T(0)))
     return side > beyond_end ? Nearest<T>{out.normal, side} : Nearest<T>{end, beyond_end};
   return from_point<T>(side * out.normal + beyond_end * end, along);
+}
+
+/// Thin, touched on both sides and at its rims.
+template <class T>
+Nearest<T> of_pipe(const Vec<T>& p, const Vec3& from, const Vec3& along, Real radius, Real length) {
+  const Vec<T> n = as<T>(along), q = p - as<T>(from);
+  const T z = dot(q, n);
+  const Nearest<T> out = from_point<T>(q - z * n, any_across(along));
+  const T beyond = z < T(0) ? z : z > T(length) ? z - T(length) : T(0);
+  return from_point<T>((out.distance - T(radius)) * out.normal + beyond * n, any_across(along));
 }
 
 template <class T>
@@ -107,8 +118,10 @@ Nearest<T> of_face(const Vec<T>& p, const FacetViews& f, Index k) {
   Nearest<T> found{as<T>(height < T(0) ? Vec3(-normal) : normal), height < T(0) ? -height : height};
   found.meets = f.size[k] == 2 || !(height < T(0));
   for (std::size_t e = 0; e < 3; ++e) {
-    const Vec3 one = f.v[e][k], other = f.v[(e + 1) % 3][k];
-    found.meets &= !beyond<T>(p - as<T>(is_lesser(one, other) ? one : other), f.v[3 + e][k]);
+    const Vec3 one = f.v[e][k], other = f.v[(e + 1) % 3][k], bisector = f.v[7 + e][k];
+    const bool in_valley = !bisector.isZero() && (height < T(0)) == (bisector.dot(normal) < 0);
+    found.meets &=
+        !beyond<T>(p - as<T>(is_lesser(one, other) ? one : other), in_valley ? bisector : Vec3(f.v[3 + e][k]));
   }
   return found;
 }
@@ -147,17 +160,17 @@ Nearest<T> nearest(const FacetViews& f, Index k, const Vec<T>& p) {
     case FacetKind::disc: return of_disc<T>(p, a, b, size);
     case FacetKind::box: return of_full_box<T>(p, a, b);
     case FacetKind::cylinder: return of_full_cylinder<T>(p, a, b, size, f.length[k]);
-    case FacetKind::barrel: {
+    case FacetKind::hollow_cylinder: {
       const Vec<T> q = p - as<T>(a);
-      const T z = dot(q, as<T>(b));
-      const Nearest<T> out = from_point<T>(q - z * as<T>(b), any_across(b));
-      return {Vec<T>(-out.normal), T(size) - out.distance, !(z < T(0)) && !(z > T(f.length[k]))};
+      const Nearest<T> out = from_point<T>(q - dot(q, as<T>(b)) * as<T>(b), any_across(b));
+      return {Vec<T>(-out.normal), T(size) - out.distance};
     }
-    case FacetKind::ball: {
+    case FacetKind::pipe: return of_pipe<T>(p, a, b, size, f.length[k]);
+    case FacetKind::sphere: {
       const Nearest<T> out = from_point<T>(p - as<T>(a), Vec3::UnitZ());
       return {out.normal, out.distance - T(size)};
     }
-    case FacetKind::bowl: {
+    case FacetKind::hollow_sphere: {
       const Nearest<T> out = from_point<T>(p - as<T>(a), Vec3::UnitZ());
       return {Vec<T>(-out.normal), T(size) - out.distance};
     }
@@ -169,16 +182,24 @@ Nearest<T> nearest(const FacetViews& f, Index k, const Vec<T>& p) {
   return {as<T>(Vec3::UnitZ()), T(0), false};
 }
 
-/// Radius of a sphere that is as blunt against a plane as one of radius r is against this facet: Hertz' R* of a rigid
-/// partner. Of a cylinder the geometric mean of its two directions, good for cylinders that are not thinner than the
-/// sphere (Johnson 1985, section 4.2). Not > 0 where the sphere does not fit in.
-inline Real blunt_as(const FacetViews& f, Index k, Real r) {
+/// Radius of a sphere that is as blunt against a plane as one of radius r at that place is against this facet: Hertz' R* of
+/// a rigid partner. At the mantle of a cylinder the geometric mean of its two directions, good for full cylinders that are
+/// not thinner than the sphere and hollow ones of twice its radius (Johnson 1985, section 4.2). Not > 0 where the sphere does
+/// not fit in.
+inline Real effective_radius(const FacetViews& f, Index k, Real r, const Vec3& place) {
   const Real size = f.size[k];
   switch (static_cast<FacetKind>(f.kind[k])) {
-    case FacetKind::ball: return r * size / (size + r);
-    case FacetKind::bowl: return size > r ? r * size / (size - r) : 0;
-    case FacetKind::cylinder: return r * std::sqrt(size / (size + r));
-    case FacetKind::barrel: return size > r ? r * std::sqrt(size / (size - r)) : 0;
+    case FacetKind::sphere: return r * size / (size + r);
+    case FacetKind::hollow_sphere: return size > r ? r * size / (size - r) : 0;
+    case FacetKind::cylinder: {
+      constexpr Real flat = 0.7;  // nearer to an end than to the mantle
+      const bool at_an_end = std::abs(nearest<Real>(f, k, place).normal.dot(Vec3(f.v[1][k]))) > flat;
+      return at_an_end ? r : r * std::sqrt(size / (size + r));
+    }
+    case FacetKind::pipe:
+      if ((place - f.v[0][k]).cross(Vec3(f.v[1][k])).norm() > size) return r * std::sqrt(size / (size + r));
+      [[fallthrough]];
+    case FacetKind::hollow_cylinder: return size > r ? r * std::sqrt(size / (size - r)) : 0;
     default: return r;
   }
 }

@@ -85,7 +85,7 @@ class StabilityWatch {
   void check_elements() const {
     const auto moved = [&](Index i) {
       const Real way = all_.velocity[i].norm() * dt();
-      return all_.radius[i] > 0 ? way / all_.radius[i] : 0 * way;  // a wall has no size to pass by
+      return all_.radius[i] > 0 ? way / all_.radius[i] : 0 * way;  // a wall has no size to pass by, but no NaN either
     };
     const Index i = first_where(all_.count, [&](Index k) { return !(moved(k) <= 1 && all_.place[k].allFinite()); });
     if (i < 0) return;

@@ -196,9 +196,9 @@ void require_whole(const Domain& domain) {
     if (!family->is_of_contacts()) require_ids(family->id(), family->size(), bond_ids, "bonds");
     if (family->is_of_walls())
       for (Index row = 0; row < family->size(); ++row)
-        if (const Near pair = family->near(row); pair.facet < 0 || pair.facet >= domain.walls().facet_count())
-          throw MachineFailure(fmt::format("a contact of '{}' is with facet {} of a wall, which there is not",
-                                           family->name(), pair.facet));
+        if (const Near pair = family->near(row); !domain.walls().has_facet(pair.second, pair.facet))
+          throw MachineFailure(fmt::format("a contact of '{}' is with facet {} of element {}, which is none of a wall",
+                                           family->name(), pair.facet, pair.second));
     for (Index row = 0; row < family->size(); ++row)
       if (family->state()[row] > State::broken)
         throw MachineFailure(fmt::format("a bond of '{}' is in no state that there is", family->name()));
@@ -223,11 +223,13 @@ void load_lists(hid_t place, Domain& domain) {
 
 void load_walls(hid_t place, Domain& domain) {
   Walls& walls = domain.walls();
-  for (const auto& [name, table] : {std::pair<const char*, Table*>{"walls", &walls.walls()}, {"facets", &walls.facet_rows()}}) {
+  for (const auto& [name, table] :
+       {std::pair<const char*, Table*>{"walls", &walls.walls()}, {"facets", &walls.facet_rows()}}) {
     table->resize(h5::has(place, name) ? saved_rows(place, name) : 0);
     if (table->size() > 0) load_columns(place, name, *table, On::scene, fmt::format("the {}", name));
   }
-  if (!walls.is_whole(domain.size())) throw MachineFailure("its walls name facets or elements that there are not");
+  if (!walls.is_whole(domain.elements().column("radius").view<const Real>(), domain.size()))
+    throw MachineFailure("its walls name facets or elements that there are not");
 }
 
 // `families[k]` is the place in the domain of the file's family k.

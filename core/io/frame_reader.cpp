@@ -143,7 +143,8 @@ Frame FrameReader::read(const FrameHead& head) const {
   if (has(group.id(), "walls")) {
     const std::vector<Real> numbers = h5::read_reals(group.id(), "walls", 6);
     for (std::size_t k = 0; k + 6 <= numbers.size(); k += 6)
-      frame.walls.push_back({Vec3(numbers[k], numbers[k + 1], numbers[k + 2]), Vec3(numbers[k + 3], numbers[k + 4], numbers[k + 5])});
+      frame.walls.push_back(
+          {Vec3(numbers[k], numbers[k + 1], numbers[k + 2]), Vec3(numbers[k + 3], numbers[k + 4], numbers[k + 5])});
   }
   if (!has(group.id(), "bonds")) return frame;
   const Handle bonds = h5::open_group(group.id(), "bonds");

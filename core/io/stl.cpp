@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
@@ -62,7 +62,8 @@ class Words {
   Real number() {
     const std::string text = word();
     const auto value = parse_number(text);
-    if (!value) refuse(fmt::format("a number is wanted, got {}", text.empty() ? "the end of the file" : '"' + text + '"'));
+    if (!value)
+      refuse(fmt::format("a number is wanted, got {}", text.empty() ? "the end of the file" : '"' + text + '"'));
     return *value;
   }
   [[noreturn]] void refuse(const std::string& why) const {
@@ -107,23 +108,35 @@ std::vector<Triangle> parse_text(const std::string& text, const std::string& nam
   return triangles;
 }
 
+// Without a byte order mark; keywords may be in capitals.
+std::string plain_text(const std::string& bytes) {
+  std::string text = bytes.starts_with(byte_order_mark) ? bytes.substr(byte_order_mark.size()) : bytes;
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
 }  // namespace
 
 std::vector<Triangle> parse_stl(const std::string& bytes, const std::string& name) {
   if (is_binary(bytes)) return parse_binary(bytes);
-  if (bytes.starts_with("solid")) return parse_text(bytes, name);
+  if (const std::string text = plain_text(bytes); text.starts_with("solid")) return parse_text(text, name);
   if (bytes.size() >= header)
-    throw DeckFailure(fmt::format(
-        "{}: error: neither a text that begins with 'solid' nor a binary STL: its head tells of {} triangles, which are "
-        "{} bytes, and the file has {}",
-        name, count_in(bytes), header + record * std::size_t{count_in(bytes)}, bytes.size()));
-  throw DeckFailure(fmt::format("{}: error: no STL: it begins neither with 'solid' nor has it the {} bytes of a head",
-                                name, header));
+    throw DeckFailure(
+        fmt::format("{}: error: neither a text that begins with 'solid' nor a binary STL: its head tells of {} "
+                    "triangles, which are "
+                    "{} bytes, and the file has {}",
+                    name, count_in(bytes), header + record * std::size_t{count_in(bytes)}, bytes.size()));
+  throw DeckFailure(
+      fmt::format("{}: error: no STL: it begins neither with 'solid' nor has it the {} bytes of a head", name, header));
 }
 
 std::vector<Triangle> read_stl(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const auto size = in.tellg();
+  if (size < 0) throw DeckFailure(fmt::format("cannot read \"{}\"", file.string()));
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  in.seekg(0).read(bytes.data(), size);
   if (!in) throw DeckFailure(fmt::format("cannot read \"{}\"", file.string()));
   return parse_stl(bytes, file.string());
 }

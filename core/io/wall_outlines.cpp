@@ -37,7 +37,8 @@ void add_box(std::vector<Line>& lines, const Vec3& centre, const Vec3& half) {
 void add_cylinder(std::vector<Line>& lines, const Vec3& from, const Vec3& along, Real radius, Real length) {
   const Vec3 u = radius * along.unitOrthogonal(), v = along.cross(u);
   for (const Real z : {0., length}) add_circle(lines, from + z * along, along, radius);
-  for (const Vec3& side : {u, v, Vec3(-u), Vec3(-v)}) lines.push_back({Vec3(from + side), Vec3(from + side + length * along)});
+  for (const Vec3& side : {u, v, Vec3(-u), Vec3(-v)})
+    lines.push_back({Vec3(from + side), Vec3(from + side + length * along)});
 }
 
 /// Where the elements are, seen from a wall: the middle and half of the extent.
@@ -67,12 +68,17 @@ void add_facet(std::vector<Line>& lines, const FacetViews& f, Index k, const Aro
     case FacetKind::disc: return add_circle(lines, a, b, size);
     case FacetKind::box: return add_box(lines, a, b);
     case FacetKind::cylinder:
-    case FacetKind::barrel: return add_cylinder(lines, a, b, size, f.length[k]);
-    case FacetKind::ball:
-    case FacetKind::bowl:
+    case FacetKind::pipe:
+    case FacetKind::hollow_cylinder: return add_cylinder(lines, a, b, size, f.length[k]);
+    case FacetKind::sphere:
+    case FacetKind::hollow_sphere:
       for (int axis = 0; axis < 3; ++axis) add_circle(lines, a, Vec3::Unit(axis), size);
       return;
-    case FacetKind::edge: lines.push_back({a, b}); return;
+    case FacetKind::edge: {
+      constexpr Real smooth = -0.94;  // cosine of 160 degrees: edges of what is round in truth are not shown
+      if (Vec3(f.v[2][k]).dot(Vec3(f.v[3][k])) > smooth) lines.push_back({a, b});
+      return;
+    }
     case FacetKind::face:
     case FacetKind::corner:
     case FacetKind::more: return;
@@ -86,14 +92,13 @@ std::vector<Line> wall_outlines(const Domain& domain) {
   const Walls& walls = domain.walls();
   if (!walls.any()) return lines;
   const Around elements = around_elements(domain);
-  const Column* turned = domain.elements().find("orientation");
   for (Index k = 0; k < walls.size(); ++k) {
-    const Vec3 place = domain.elements().column("position").view<Vec3>()[walls.element(k)];
-    const Quat turn = turned ? turned->view<Quat>()[walls.element(k)] : identity();
+    const auto& [place, turn] = domain.pose(walls.element(k));
     const std::size_t first = lines.size();
     const Around around{rotate_back(turn, Vec3(elements.centre - place)), elements.size};
     const auto [begin, end] = walls.parts(k);
-    for (Index n = begin; n < end; ++n) add_facet(lines, walls.facets(), n, around);
+    const FacetViews facets = walls.facets();
+    for (Index n = begin; n < end; ++n) add_facet(lines, facets, n, around);
     for (std::size_t n = first; n < lines.size(); ++n)
       for (Vec3& point : lines[n]) point = place + rotate(turn, point);
   }

@@ -68,23 +68,6 @@ std::unique_ptr<Scene> Scene::assemble(const Deck& deck, const Catalogue& catalo
   return scene;
 }
 
-std::vector<Constraint> Stage::constraints() const {
-  std::vector<Constraint> all;
-  for (const Load* load : loads)
-    for (Constraint& c : blaming(*load, "constraints", [&] { return load->constraints(); })) {
-      c.place = load->at().where();
-      all.push_back(std::move(c));
-    }
-  for (const Filler* filler : fillers)
-    for (Constraint& c : blaming(*filler, "constraints", [&] { return filler->constraints(); })) {
-      if (std::any_of(all.begin(), all.end(), [&](const Constraint& o) { return o.set == c.set && (o.prescribes() & c.prescribes()); }))
-        continue;
-      c.place = filler->at().where();
-      all.push_back(std::move(c));
-    }
-  return all;
-}
-
 bool Stage::watched_by(const Watcher& watcher) const {
   return std::find(watchers.begin(), watchers.end(), &watcher) != watchers.end();
 }

@@ -36,6 +36,12 @@ class Assembly {
   void note_prospect(const std::string& attribute, const Location& at, const std::string& why_never);
   void complain_of_hopeless();
 
+  // walls (assembly_walls.cpp)
+  void note_walls();
+  std::map<std::string, const Filler*> makers_of_sets();
+  void warn_of_idle_loads(const std::map<std::string, const Filler*>& makers);
+  bool may_turn(const std::string& set, const Filler& maker) const;
+
   // the deck as it was understood (assembly_resolved.cpp)
   void resolve();
   void resolve_sections(const Node& parent, PlainNode& plain, std::size_t& plugins, std::size_t& stages);
@@ -43,7 +49,6 @@ class Assembly {
   std::string resolved(const Plugin& plugin, const ParamBase& param);
 
   // names (assembly_names.cpp)
-  void note_walls();
   void check_names();
   void check_order_of_regions();
   void check_curve_names();

@@ -261,10 +261,11 @@ void Assembly::note_sums() {
     scene_.section_readers.insert(readers.begin(), readers.end());
     const auto counting = laws_that([&](const PairLaw& law) { return derived->sums_over(law); });
     for (const PairLaw* law : counting)
-      if (const auto* contacts = as_kind<ContactLaw>(static_cast<const Plugin&>(*law)); contacts && contacts->faces_walls())
-        complaints_.error(derived->at(), fmt::format("<{}> cannot sum over the contacts '{}' with walls: their forces act "
-                                                     "at the surface, not between two centres",
-                                                     derived->tag(), law->family()));
+      if (law->faces_walls())
+        complaints_.error(derived->at(),
+                          fmt::format("<{}> cannot sum over the contacts '{}' with walls: their forces act "
+                                      "at the surface, not between two centres",
+                                      derived->tag(), law->family()));
     if (first && counting != scene_.summing)
       complaints_.error(derived->at(),
                         fmt::format("<{}> sums over other families than <{}>: one choice holds for a scene",

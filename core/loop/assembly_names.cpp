@@ -129,37 +129,6 @@ void Assembly::check_judged() {
                             fmt::format("'of' names the contacts \"{}\": bonds break, contacts do not", family));
 }
 
-// A set is of walls or of elements. Contacts are told that they face walls; bonds hold none.
-void Assembly::note_walls() {
-  std::map<std::string, bool> walls;  // by set
-  for (const Filler* filler : scene_.fillers)
-    for (const ParamBase* p : filler->params()) {
-      if (p->info().role != Role::makes_set) continue;
-      for (const std::string& name : p->names()) {
-        const auto [there, fresh] = walls.try_emplace(name, filler->makes_walls());
-        if (!fresh && there->second != filler->makes_walls())
-          complaints_.error(p->at(), fmt::format("set '{}' cannot be of elements and of walls: give one another name", name));
-      }
-    }
-  const auto is_of_walls = [&](const std::string& set) {
-    const auto found = walls.find(set);
-    return found != walls.end() && found->second;
-  };
-  for (const auto& plugin : scene_.plugins) {
-    if (const auto* bonds = as_kind<BondLaw>(std::as_const(*plugin)); bonds && bonds->between.given())
-      for (const std::string& set : *bonds->between)
-        if (is_of_walls(set))
-          complaints_.error(bonds->between.at(set),
-                            fmt::format("\"{}\" is a wall, which no bond holds: contacts do, or loads on a region", set));
-    auto* contacts = as_kind<ContactLaw>(*plugin);
-    if (!contacts || !contacts->between.given()) continue;
-    const auto count = std::count_if(contacts->between->begin(), contacts->between->end(), is_of_walls);
-    if (count == 1) contacts->face_walls();
-    if (count == 2)
-      complaints_.error(contacts->between.at(), "'between' names walls only: walls pass through one another");
-  }
-}
-
 void Assembly::check_names() {
   check_judged();
   check_derived();

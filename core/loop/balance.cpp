@@ -241,9 +241,9 @@ QualityFigures Balance::quality(bool failed) const {
   const Domain& domain = state_.domain();
   const auto radius = domain.elements().column("radius").view<Real>();
   const Index spheres = domain.size() - domain.walls().size();
-  quality_.tell(figures, spheres > 0 ? fixed_sum(domain.size(), [&](Index i) { return radius[i]; }) /
-                                           static_cast<Real>(spheres)
-                                     : 0);
+  quality_.tell(figures, spheres > 0
+                             ? fixed_sum(domain.size(), [&](Index i) { return radius[i]; }) / static_cast<Real>(spheres)
+                             : 0);
   figures.failed = failed;
   figures.dynamic = !prescribes() || quality_.flown() > 0.1 * brought;
   return figures;

@@ -92,16 +92,15 @@ void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, co
 std::vector<Near> walls_in_reach(const ContactLaw& law, const Domain& domain, Real skin) {
   const auto x = domain.elements().column("position").view<Vec3>();
   const auto r = domain.elements().column("radius").view<Real>();
-  const Column* turned = domain.elements().find("orientation");
   std::vector<Index> rows, walls;
   std::vector<Vec3> place;
   std::vector<Real> reach;
-  std::vector<Walls::Pose> poses;
+  std::vector<Pose> poses;
   for (const std::string& name : *law.between)
     for (const Index row : domain.set(name)) {
       if (domain.walls().is_wall(row)) {
         walls.push_back(row);
-        poses.push_back({x[row], turned ? turned->view<Quat>()[row] : identity()});
+        poses.push_back(domain.pose(row));
       } else {
         rows.push_back(row);
         place.push_back(x[row]);

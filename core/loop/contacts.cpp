@@ -23,11 +23,6 @@ bool has(const Pairs& sorted, const std::pair<Index, Index>& pair) {
   return std::binary_search(sorted.begin(), sorted.end(), pair);
 }
 
-Walls::Pose pose_of(const Domain& domain, Index row) {
-  const Column* turned = domain.elements().find("orientation");
-  return {domain.elements().column("position").view<Vec3>()[row], turned ? turned->view<Quat>()[row] : identity()};
-}
-
 Real farthest_from(const Domain& domain, const Vec3& place) {
   const auto x = domain.elements().column("position").view<Vec3>();
   const auto radius = domain.elements().column("radius").view<Real>();
@@ -41,7 +36,7 @@ Real distance_in(const Domain& domain, const BondTable& table, Index row) {
   const auto x = domain.elements().column("position").view<Vec3>();
   const Near pair = table.near(row);
   if (!table.is_of_walls()) return (x[pair.second] - x[pair.first]).norm();
-  const Walls::Pose wall = pose_of(domain, pair.second);
+  const Pose wall = domain.pose(pair.second);
   const Nearest<Real> found = nearest<Real>(domain.walls().facets(), pair.facet,
                                             rotate_back(wall.orientation, Vec3(x[pair.first] - wall.position)));
   return found.meets ? found.distance : std::numeric_limits<Real>::infinity();
@@ -99,11 +94,22 @@ void Contacts::follow() {
 std::string Contacts::fastest() const {
   const Domain& domain = state_.domain();
   const auto velocity = domain.elements().column("velocity").view<Vec3>();
-  Index row = 0;
-  for (Index k = 1; k < domain.size(); ++k)
-    if (velocity[k].squaredNorm() > velocity[row].squaredNorm()) row = k;
-  return fmt::format("element {}, at {:.3g} m/s,", domain.elements().column("id").view<Index>()[row],
-                     velocity[row].norm());
+  const Column* spins = domain.elements().find("spin");
+  Index fastest = 0;
+  Real speed = -1;
+  for (Index row = 0; row < domain.size(); ++row)
+    if (const Real here = Vec3(velocity[row]).norm(); here > speed) speed = here, fastest = row;
+  const Walls& walls = domain.walls();
+  for (Index k = 0; k < walls.size(); ++k) {
+    const Index row = walls.element(k);
+    const Real rim = spins ? spins->view<Vec3>()[row].norm() * walls.lever(k, narrowest_) : 0;
+    if (Vec3(velocity[row]).norm() + rim > speed) speed = Vec3(velocity[row]).norm() + rim, fastest = row;
+  }
+  std::string what = "element";
+  for (const auto& [name, set] : domain.sets())
+    if (walls.is_wall(fastest) && std::binary_search(set.begin(), set.end(), fastest))
+      what = "wall '" + name + "', element";
+  return fmt::format("{} {}, at {:.3g} m/s,", what, domain.elements().column("id").view<Index>()[fastest], speed);
 }
 
 // The step to come is as long as the last one, or half again: velocities stand for it.
@@ -113,15 +119,15 @@ bool Contacts::are_old() const {
   const auto then = domain.elements().column("searched-at").view<Vec3>();
   const auto velocity = domain.elements().column("velocity").view<Vec3>();
   const Real dt = 1.5 * state_.moment.time_step;
-  return have_walls_moved() || rows::any_of(domain.size(), [&](const auto& at) {
-    using T = typename std::decay_t<decltype(at)>::Number;
-    const Vec<T> moved = at(now) - at(then), step = at(velocity);
-    return sqrt(dot(moved, moved)) + T(dt) * sqrt(dot(step, step)) > T(narrowest_);
-  });
+  return have_walls_turned() || rows::any_of(domain.size(), [&](const auto& at) {
+           using T = typename std::decay_t<decltype(at)>::Number;
+           const Vec<T> moved = at(now) - at(then), step = at(velocity);
+           return sqrt(dot(moved, moved)) + T(dt) * sqrt(dot(step, step)) > T(narrowest_);
+         });
 }
 
-// A wall that turns moves its farther points by more than its place.
-bool Contacts::have_walls_moved() const {
+// A wall that turns moves its farther points by more than its place, which `are_old` sees to.
+bool Contacts::have_walls_turned() const {
   const Domain& domain = state_.domain();
   const Walls& walls = domain.walls();
   const Column* spins = domain.elements().find("spin");
@@ -130,10 +136,9 @@ bool Contacts::have_walls_moved() const {
   const Real dt = 1.5 * state_.moment.time_step;
   for (Index k = 0; k < walls.size(); ++k) {
     const Index row = walls.element(k);
-    const Walls::Pose pose = pose_of(domain, row);
-    if (walls.moved(k, pose, 1) == 0 && spin[row].isZero()) continue;
-    const Real far = std::min(farthest_from(domain, pose.position), walls.extent(k));
-    if (walls.moved(k, pose, far) + dt * (velocity[row].norm() + spin[row].norm() * far) > narrowest_) return true;
+    const Real moved = walls.moved(k, domain.pose(row), narrowest_),
+               turns = Vec3(spin[row]).isZero() ? 0 : Vec3(spin[row]).norm() * walls.lever(k, narrowest_);
+    if (moved + dt * (Vec3(velocity[row]).norm() + turns) > narrowest_) return true;
   }
   return false;
 }
@@ -248,7 +253,10 @@ void Contacts::search() {
   const auto searched_at = domain.elements().column("searched-at").view<Vec3>();
   for (Index row = 0; row < domain.size(); ++row) searched_at.set(row, position[row]);
   Walls& walls = domain.walls();
-  for (Index k = 0; k < walls.size(); ++k) walls.note(k, pose_of(domain, walls.element(k)));
+  for (Index k = 0; k < walls.size(); ++k) {
+    const Pose pose = domain.pose(walls.element(k));
+    walls.note(k, pose, farthest_from(domain, pose.position));
+  }
   state_.breaks_searched = static_cast<Real>(domain.breaks().breaks.size());
   state_.searches += 1;
   domain.cut_families();

@@ -22,7 +22,7 @@ class Contacts {
  private:
   void search();
   bool are_old() const;
-  bool have_walls_moved() const;
+  bool have_walls_turned() const;
   std::vector<std::pair<Index, Index>> held_pairs() const;
   std::map<std::pair<Index, Index>, Real> broken_pairs() const;
   void warn_of_two_laws() const;

@@ -36,22 +36,26 @@ void order_elements(RunState& state) {
 }
 
 // One degree of freedom of an element has one master.
-void check_constraints(const Domain& domain, const Stage& stage, std::span<const Constraint> constraints) {
+void check_constraints(const Scene& scene, std::span<const Constraint> constraints) {
   std::map<std::pair<Index, int>, const Constraint*> taken;
-  const auto load_of = [&](const Constraint& c) {
-    return std::find_if(stage.loads.begin(), stage.loads.end(), [&](const Load* l) { return l->id() == c.by; });
+  const auto maker_of = [&](const Constraint& c) -> const Plugin& {
+    const auto found = std::find_if(scene.plugins.begin(), scene.plugins.end(),
+                                    [&](const auto& plugin) { return plugin->id() == c.by; });
+    if (found == scene.plugins.end())
+      throw std::logic_error(fmt::format("no plugin '{}', which constrains a set", c.by));
+    return **found;
   };
   for (const Constraint& c : constraints) {
-    const auto by = load_of(c);
-    check_constraint(c, domain, by != stage.loads.end() ? static_cast<const Plugin&>(**by) : stage.mover());
-    for (const Index row : domain.set(c.set))
+    const Plugin& by = maker_of(c);
+    check_constraint(c, *scene.domain, by);
+    for (const Index row : scene.domain->set(c.set))
       for (int axis = 0; axis < 6; ++axis) {
         if (!(c.prescribes() >> axis & 1)) continue;
         const auto [there, fresh] = taken.try_emplace({row, axis}, &c);
         if (fresh) continue;
         static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
-        refuse((*by)->at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}",
-                                        names[axis], c.set, there->second->set, there->second->by));
+        refuse(by.at(), fmt::format("axis {} of an element of set '{}' is already prescribed, on set '{}' by {}",
+                                    names[axis], c.set, there->second->set, there->second->by));
       }
   }
 }
@@ -103,8 +107,7 @@ void fill(RunState& state, const RunOptions& options, std::vector<std::string>& 
   order_elements(state);
   for (Filler* filler : scene.fillers)
     if (filler->after_filling()) run_filler(state, *filler, job);
-  for (std::size_t s = 0; s < scene.stages.size(); ++s)
-    check_constraints(state.domain(), scene.stages[s], state.constraints[s]);
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) check_constraints(scene, state.constraints[s]);
   foresee_families(state, options);
 }
 

@@ -14,12 +14,14 @@ namespace {
   throw PhysicsFailure(fmt::format("{}: error: plugin {} {}", by.at().where(), by.id(), what));
 }
 
-void check_positive(const Filler& by, const Domain& domain, const char* name, bool walls_may_not = false) {
+enum class Of { all, all_but_walls };
+
+void check_positive(const Filler& by, const Domain& domain, const char* name, Of which) {
   const Column* column = domain.elements().find(name);
   if (!column) return;
   const auto value = column->view<Real>();
   for (Index row = 0; row < domain.size(); ++row)
-    if (!(std::isfinite(value[row]) && value[row] > 0) && !(walls_may_not && domain.walls().is_wall(row)))
+    if (!(std::isfinite(value[row]) && value[row] > 0) && !(which == Of::all_but_walls && domain.walls().is_wall(row)))
       blame(by, fmt::format("left element {} with {} = {} {}: it must be finite and > 0", row, name, value[row],
                             column->field().unit));
 }
@@ -44,8 +46,8 @@ void check_elements(const Filler& by, const Domain& domain) {
       blame(by, fmt::format("left element {} at {} {} {} m: not a finite place, or too far away to compute with", row,
                             x.x(), x.y(), x.z()));
   }
-  check_positive(by, domain, "radius", true);  // walls have none
-  for (const char* name : {"mass", "inertia"}) check_positive(by, domain, name);
+  check_positive(by, domain, "radius", Of::all_but_walls);
+  for (const char* name : {"mass", "inertia"}) check_positive(by, domain, name, Of::all);
   for (const auto& [name, set] : domain.sets()) check_set(by, name, set, domain.size());
 }
 

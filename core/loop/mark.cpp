@@ -51,10 +51,12 @@ std::optional<Mark> Mark::of(const Expression& quantity, const std::string& attr
   const Real value = quantity.evaluate(anywhere);
   for (std::size_t v = 0; v < variables().size(); ++v) {
     if (!(quantity.dimension() == variables()[v].dimension)) continue;
-    if (static_cast<What>(v) == What::steps && value != std::floor(value)) {
+    const auto words = split_words(text);
+    const bool has_unit = words.size() == 2 && parse_number(words[0]) && find_unit(words[1]);
+    if (static_cast<What>(v) == What::steps && (value != std::floor(value) || has_unit)) {
       complaints.error(
-          at, fmt::format("'{}' wants a whole number of steps, or a time or displacement with its unit, got \"{}\"",
-                          attribute, text));
+          at, fmt::format("'{}' wants a whole number of steps, or a time or displacement with its unit, got \"{}\"{}",
+                          attribute, text, has_unit ? "; turns are not waited for: give the time that they take" : ""));
       return std::nullopt;
     }
     if (value >= 0) return Mark{static_cast<What>(v), value, text, at};

@@ -25,7 +25,7 @@ struct Stage {
   std::vector<ContactLaw*> contacts;
   std::vector<Load*> loads;
   std::vector<const Filler*> fillers;  ///< of the scene: some hold what they make
-  std::vector<Mover*> movers;  ///< exactly one, once checked
+  std::vector<Mover*> movers;          ///< exactly one, once checked
   std::vector<Failure*> failures;
   std::vector<Watcher*> watchers;
   std::vector<std::vector<Mark>> marks;  ///< moments at which each watcher looks beside its cadence

@@ -93,7 +93,8 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   json["version"] = version;
   json["threads"] = threads;
   json["seed"] = scene.seed;
-  json["elements"] = domain.size();
+  json["elements"] = domain.size() - domain.walls().size();
+  if (domain.walls().any()) json["walls"] = domain.walls().size();
   json["bonds"] = Json::object();
   for (const BondTable* family : domain.families())
     json[family->is_of_contacts() ? "contacts" : "bonds"][family->name()] = family->size();

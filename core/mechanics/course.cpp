@@ -40,8 +40,11 @@ constexpr std::size_t most_panels = std::size_t{1} << 20;
 
 }  // namespace
 
-VelocityCourse::VelocityCourse(OfTime velocity, OfTime acceleration, std::vector<Real> kinks)
-    : velocity_(std::move(velocity)), acceleration_(std::move(acceleration)), kinks_(std::move(kinks)) {
+VelocityCourse::VelocityCourse(OfTime velocity, OfTime acceleration, std::vector<Real> kinks, OfTime noise)
+    : velocity_(std::move(velocity)),
+      acceleration_(std::move(acceleration)),
+      noise_(std::move(noise)),
+      kinks_(std::move(kinks)) {
   recent_.fill({nan, {}});
 }
 
@@ -97,8 +100,8 @@ void VelocityCourse::divide(const Panel& octave) const {
   for (std::size_t k = borders.size() - 1; k > 0; --k) open_.push_back({borders[k - 1], borders[k]});
 }
 
-// The panel is fine enough if two parts of it give the same, but for rounding: of velocities, of times as far as the
-// velocity changes with them, and of the place. The parts are uneven, lest many whole periods look like rest: there all
+// The panel is fine enough if two parts of it give the same, but for rounding: of velocities, which may be small differences
+// of large terms, of times as far as the velocity changes with them, and of the place. The parts are uneven, lest many whole periods look like rest: there all
 // that is odd about the middle gives 0, and so do its halves.
 void VelocityCourse::settle(const Panel& panel) const {
   constexpr Real uneven = 0.41421356;
@@ -125,10 +128,10 @@ Real VelocityCourse::integral(const Panel& panel) const {
 VelocityCourse::Sum VelocityCourse::weighed(const Panel& panel) const {
   Sum sum{0, 0, 0};
   each_node(panel.begin, panel.end, [&](Real t, Real weight) {
-    const Real velocity = velocity_(t), acceleration = acceleration_(t);
+    const Real velocity = velocity_(t), noise = noise_ ? 2 * noise_(t) : std::abs(t * acceleration_(t));
     sum.value += weight * velocity;
     sum.way += weight * std::abs(velocity);
-    if (std::isfinite(acceleration)) sum.noise += weight * std::abs(t * acceleration);
+    if (std::isfinite(noise)) sum.noise += weight * noise;
   });
   return sum;
 }

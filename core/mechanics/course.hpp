@@ -16,8 +16,8 @@ class VelocityCourse {
  public:
   using OfTime = std::function<Real(Real)>;
   /// The acceleration is the derivative of the velocity. `kinks`: times at which the velocity jumps or bends, as far as
-  /// they are known.
-  VelocityCourse(OfTime velocity, OfTime acceleration, std::vector<Real> kinks);
+  /// they are known. `noise`: how far rounding may take the velocity, over epsilon; where absent, that of the time alone.
+  VelocityCourse(OfTime velocity, OfTime acceleration, std::vector<Real> kinks, OfTime noise = {});
 
   /// No number from the time on at which the velocity is none; before time 0 nothing has moved. Several threads may
   /// ask. Throws std::runtime_error if the velocity changes too often to be followed that far.
@@ -28,7 +28,7 @@ class VelocityCourse {
     Real begin, end;
   };
   struct Sum {
-    Real value, way, noise;  ///< the integral; that of the speed; and what rounded times may do to it, over epsilon
+    Real value, way, noise;  ///< the integral; that of the speed; and what rounding may do to it, over epsilon
   };
   struct Known {
     Real time;
@@ -43,7 +43,7 @@ class VelocityCourse {
   Real integral(const Panel& panel) const;
   Sum weighed(const Panel& panel) const;
 
-  OfTime velocity_, acceleration_;
+  OfTime velocity_, acceleration_, noise_;
   std::vector<Real> kinks_;
 
   // What has been found so far, from time 0 on. All of it follows from the velocity.

@@ -26,12 +26,15 @@ class ContactLaw : public PairLaw {
   bool acts_when_broken() const final { return true; }  // it has no bonds that break
   bool is_in_stress() const override { return false; }
 
-  /// Told before `choose`: one of its two sets is of walls. The second element of its pairs is then the wall.
-  void face_walls() {
+  /// Told before `choose`: one of its two sets is of walls. The second element of its pairs is then the wall. `turning`: loads
+  /// or forces may turn some.
+  void face_walls(bool turning) {
     faces_walls_ = true;
+    walls_turn_ = turning;
     facet.want(true);
   }
-  bool faces_walls() const { return faces_walls_; }
+  bool faces_walls() const final { return faces_walls_; }
+  bool faces_walls_that_turn() const { return walls_turn_; }
   /// Told before it acts, of a law that faces walls.
   void see(const Walls& walls) { facets_ = walls.facets(); }
 
@@ -44,7 +47,7 @@ class ContactLaw : public PairLaw {
   const FacetViews& facets() const { return facets_; }
 
  private:
-  bool faces_walls_ = false;
+  bool faces_walls_ = false, walls_turn_ = false;
   FacetViews facets_;
 };
 

@@ -40,7 +40,8 @@ class Mover : public Plugin {
       this,
       {.name = "until",
        .doc = "When the stage ends: a time (1 ms), a number of steps (5000), a displacement of what is pulled (0.8 "
-              "mm), or a condition such as \"force of right < 2 percent of its maximum\"; several are joined by 'or'",
+              "mm), or a condition such as \"force of right < 2 percent of its maximum\" or \"sensor NAME > 3 MPa\"; "
+              "several are joined by 'or'",
        .optional = true}};
 
   /// Told before anything is allocated: whether some plugin reads orientations or adds torques.

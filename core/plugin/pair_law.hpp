@@ -77,6 +77,8 @@ class PairLaw : public Plugin {
   /// What is probably wrong with it, at time steps of that length, where the balance has an excess of energy that no
   /// work accounts for; "" where nothing is.
   virtual std::string suspect(const Domain&, Real /*time_step*/) const { return ""; }
+  /// True if the second of its pairs is a wall, on whose surface its forces act.
+  virtual bool faces_walls() const { return false; }
   /// True if its forces are part of the stress of an element, where no deck says which families are.
   virtual bool is_in_stress() const { return true; }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/failure.hpp"
 #include "core/mechanics/collision.hpp"
 #include "core/mechanics/restitution.hpp"
 #include "core/plugin/bond_law_of.hpp"
@@ -29,7 +30,7 @@ template <class Normal, class Meeting, bool frictional>
 struct CollidingLaw {
   CollidingColumns c;
 
-  static constexpr bool turns = frictional || Meeting::with_walls;
+  static constexpr bool turns = frictional || Meeting::turns;
   static constexpr bool travels = true;
 
   template <Pass pass, class At, class Ends>
@@ -38,7 +39,7 @@ struct CollidingLaw {
     const auto touch = Meeting::find(c.meeting, at, ends);
     const Vec<T> n = touch.n;
     const T delta = touch.delta, k = at(c.stiffness);
-    const Vec<T> rate = touch.rate(ends);
+    const Vec<T> rate = touch.rate(ends, 0.5 * c.time_step);
     const T v_n = dot(rate, n), elastic = Normal::force(k, delta);
     T push = elastic, lost(0);
     if (c.viscosity) {
@@ -139,10 +140,13 @@ struct CollidingLaw {
 
 /// Contacts with one normal law.
 template <class Normal>
-class Colliding : public ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, CollidingLaw<Normal, OfSpheres, true>,
-                                      CollidingLaw<Normal, WithWall, false>, CollidingLaw<Normal, WithWall, true>> {
+class Colliding
+    : public ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, CollidingLaw<Normal, OfSpheres, true>,
+                          CollidingLaw<Normal, WithWall<false>, false>, CollidingLaw<Normal, WithWall<true>, false>,
+                          CollidingLaw<Normal, WithWall<true>, true>> {
   using Base = ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, CollidingLaw<Normal, OfSpheres, true>,
-                            CollidingLaw<Normal, WithWall, false>, CollidingLaw<Normal, WithWall, true>>;
+                            CollidingLaw<Normal, WithWall<false>, false>, CollidingLaw<Normal, WithWall<true>, false>,
+                            CollidingLaw<Normal, WithWall<true>, true>>;
 
  public:
   Param<Real> friction{this,
@@ -190,9 +194,11 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, Co
   void meet(const Domain& domain, const BondTable& table, Index row) override {
     const Index i = table.first()[row], j = table.second()[row];
     const bool with_wall = this->faces_walls();
-    stiffness[row] = with_wall ? hardness_at(table.near(row).facet, i) : hardness(this->radius[i], this->radius[j]);
+    stiffness[row] =
+        with_wall ? stiffness_at(domain, table.near(row)) : stiffness_between(this->radius[i], this->radius[j]);
     if (share) share[row] = this->radius[i] / (this->radius[i] + this->radius[j]);
-    const bool alone = with_wall && !domain.walls().moved_by_forces(j);  // a wall that only loads move does not give way
+    const bool alone =
+        with_wall && !domain.walls().moved_by_forces(j);  // a wall that only loads move does not give way
     const Real reduced = alone ? mass[i] : mass[i] * mass[j] / (mass[i] + mass[j]);
     if (viscosity) viscosity[row] = 2 * zeta_ * std::sqrt(reduced * (Normal::even ? stiffness[row] : 1));
   }
@@ -217,9 +223,9 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, Co
 
  protected:
   /// k of the law for two radii.
-  virtual Real hardness(Real r1, Real r2) const = 0;
+  virtual Real stiffness_between(Real r1, Real r2) const = 0;
   /// The same for one radius at a rigid plane.
-  virtual Real hardness_at_plane(Real r) const = 0;
+  virtual Real stiffness_at_plane(Real r) const = 0;
   /// Tangential over normal stiffness.
   virtual Real tangential_ratio() const = 0;
   /// Overlap over the distance of the centres that the time step is made for.
@@ -239,37 +245,57 @@ class Colliding : public ContactLawOf<CollidingLaw<Normal, OfSpheres, false>, Co
                              tangential_ratio(),
                              expected_overlap(),
                              this->time_step()};
-    return this->faces_walls() ? chosen<WithWall>(c) : chosen<OfSpheres>(c);
+    if (!this->faces_walls()) {
+      if (slides()) return CollidingLaw<Normal, OfSpheres, true>{c};
+      return CollidingLaw<Normal, OfSpheres, false>{c};
+    }
+    if (slides()) return CollidingLaw<Normal, WithWall<true>, true>{c};
+    if (this->faces_walls_that_turn()) return CollidingLaw<Normal, WithWall<true>, false>{c};
+    return CollidingLaw<Normal, WithWall<false>, false>{c};
   }
 
  private:
   // Half a period, as if the stiffness were even, of the elements that are the quickest: of two alike, or of one at a wall.
   Real shortest_collision(const Domain& domain) const {
-    const bool with_wall = this->faces_walls();
+    const Real wall = this->faces_walls() ? lightest_wall(domain) : 0;
     Real shortest = std::numeric_limits<Real>::infinity();
     for (const std::string& set : *this->between)
       for (const Index i : domain.set(set)) {
-        const Real r = this->radius[i];
+        const Real r = this->radius[i], m = mass[i];
         if (!(r > 0)) continue;
-        const Real k = with_wall ? Normal::slope(hardness_at_plane(r), expected_overlap() * r)
-                                 : Normal::slope(hardness(r, r), expected_overlap() * 2 * r);
-        shortest = std::min(shortest, std::numbers::pi * std::sqrt((with_wall ? 1 : 0.5) * mass[i] / k));
+        const Real k = this->faces_walls() ? Normal::slope(stiffness_at_plane(r), expected_overlap() * r)
+                                           : Normal::slope(stiffness_between(r, r), expected_overlap() * 2 * r);
+        const Real reduced = this->faces_walls() ? m / (1 + m / wall) : 0.5 * m;
+        shortest = std::min(shortest, std::numbers::pi * std::sqrt(reduced / k));
       }
     return shortest;
   }
+  // What one contact has of the walls that forces move: of all that touch it now, each has its share; where it may turn it is
+  // the lighter the farther out it is struck.
+  Real lightest_wall(const Domain& domain) const {
+    const Walls& walls = domain.walls();
+    const BondTable& table = *domain.find_family(this->family());
+    const Column* turning = domain.elements().find("inertia");
+    Real lightest = std::numeric_limits<Real>::infinity();
+    for (Index k = 0; k < walls.size(); ++k) {
+      const Index row = walls.element(k);
+      if (!walls.moved_by_forces(row)) continue;
+      Real contacts = 1;
+      for (Index pair = 0; pair < table.size(); ++pair) contacts += table.second()[pair] == row;
+      const Real lever = walls.lever(k, 0), inertia = turning ? turning->view<Real>()[row] : 0;
+      const Real inverse = 1 / mass[row] + (inertia > no_mass ? lever * lever / inertia : 0);
+      lightest = std::min(lightest, 1 / (inverse * contacts));
+    }
+    return lightest;
+  }
   bool damps() const { return *restitution < 1; }
   bool slides() const { return *friction > 0; }
-  template <class Meeting>
-  typename Base::AnyLaw chosen(const CollidingColumns& c) const {
-    if (slides()) return CollidingLaw<Normal, Meeting, true>{c};
-    return CollidingLaw<Normal, Meeting, false>{c};
-  }
-  Real hardness_at(Index part, Index element) const {
-    const Real r = this->radius[element], blunt = blunt_as(this->facets(), part, r);
+  Real stiffness_at(Index part, Index element) const {
+    const Real r = this->radius[element], blunt = effective_radius(this->facets(), part, r);
     if (!(blunt > 0))
-      throw std::runtime_error(fmt::format("element of radius {:.6g} m does not fit into the hollow of wall '{}'", r,
-                                           (*this->between)[1]));
-    return hardness_at_plane(blunt);
+      throw std::runtime_error(
+          fmt::format("element of radius {:.6g} m does not fit into the hollow of wall '{}'", r, (*this->between)[1]));
+    return stiffness_at_plane(blunt);
   }
   Real zeta_ = 0;
 };

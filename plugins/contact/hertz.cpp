@@ -21,13 +21,11 @@ class Hertz final : public Colliding<HertzContact> {
 
  protected:
   // 4/3 E* sqrt(R*), E* = E/2(1 - nu^2), R* = R1 R2/(R1 + R2)
-  Real hardness(Real r1, Real r2) const override {
+  Real stiffness_between(Real r1, Real r2) const override {
     return 2 * *young / (3 * (1 - *poisson * *poisson)) * std::sqrt(r1 * r2 / (r1 + r2));
   }
   // The partner is rigid and flat: E* = E/(1 - nu^2), R* = R.
-  Real hardness_at_plane(Real r) const override {
-    return 4 * *young / (3 * (1 - *poisson * *poisson)) * std::sqrt(r);
-  }
+  Real stiffness_at_plane(Real r) const override { return 4 * *young / (3 * (1 - *poisson * *poisson)) * std::sqrt(r); }
   // 8 G* sqrt(R* delta) over 2 E* sqrt(R* delta), G* = G/2(2 - nu); the same at a wall, where both are doubled
   Real tangential_ratio() const override { return 2 * (1 - *poisson) / (2 - *poisson); }
   Real expected_overlap() const override { return *overlap_; }

@@ -15,18 +15,19 @@ struct MeetingColumns {
 
 /// The contact divides the line of centres as the radii do.
 struct OfSpheres {
-  static constexpr bool with_walls = false;
+  static constexpr bool turns = false;  // by itself: only friction sees it
 
   template <class T>
   struct Touch {
     Vec<T> n;             ///< from the first to the second
     T delta, arm1, arm2;  ///< overlap; from the centres to the contact [m]
 
+    /// Of the second past the first [m/s].
     template <class Ends>
-    [[gnu::always_inline]] Vec<T> rate(const Ends& ends) const {
+    [[gnu::always_inline]] Vec<T> rate(const Ends& ends, Real /*half_step*/) const {
       return ends.v2 - ends.v1;
     }
-    /// Of the rate, what slides at the contact.
+    /// Of the rate, what slides at the contact [m/s].
     template <class Ends>
     [[gnu::always_inline]] Vec<T> slide(const Ends& ends, const Vec<T>& rate, const T& v_n) const {
       const Vec<T> across = rate - v_n * n;
@@ -62,9 +63,10 @@ struct OfSpheres {
   }
 };
 
-/// The second is a wall, which does not give: the contact lies on it.
+/// The second is a wall, which does not give: the contact lies on it. `turning`: the wall may turn, and feels torques.
+template <bool turning>
 struct WithWall {
-  static constexpr bool with_walls = true;
+  static constexpr bool turns = turning;
 
   template <class T>
   struct Touch {
@@ -72,16 +74,21 @@ struct WithWall {
     T delta;            ///< overlap [m]
     Vec<T> arm1, arm2;  ///< from the centre of the sphere, and from the place of the wall, to the contact [m]
 
+    /// Velocities are those of half a step ago [s]: so is the arm by which the wall turns, lest what rides on it creeps
+    /// inwards.
     template <class Ends>
-    Vec<T> rate(const Ends& ends) const {
-      return ends.v2 + cross(ends.w2, arm2) - ends.v1;
+    Vec<T> rate(const Ends& ends, Real half_step) const {
+      if constexpr (requires { ends.w2; })
+        return ends.v2 + cross(ends.w2, Vec<T>(arm2 - T(half_step) * cross(ends.w2, arm2))) - ends.v1;
+      else
+        return ends.v2 - ends.v1;
     }
     template <class Ends>
     Vec<T> slide(const Ends& ends, const Vec<T>& rate, const T& v_n) const {
       return rate - v_n * n - cross(ends.w1, arm1);
     }
-    Wrench<T> wrench(const Vec<T>& force, const Vec<T>&) const { return wrench(force); }
-    Wrench<T> wrench(const Vec<T>& force) const {
+    /// What drags is in the force already, and acts at the contact as the push does.
+    Wrench<T> wrench(const Vec<T>& force, const Vec<T>& /*drag*/ = zero<Vec<T>>()) const {
       return {copy(force), copy(Vec<T>(cross(force, arm1))), copy(Vec<T>(cross(arm2, force)))};
     }
     std::array<Vec3, 2> arms() const requires std::is_same_v<T, Real> { return {arm1, arm2}; }
@@ -90,8 +97,12 @@ struct WithWall {
   template <class At, class Ends>
   static auto find(const MeetingColumns& c, const At& at, const Ends& ends) {
     using T = typename At::Number;
-    const Seen<T> seen = see<T>(c, at(c.facet), at(c.length), rotate_back(ends.q2, Vec<T>(-ends.apart)));
-    const Vec<T> out = rotate(ends.q2, seen.normal), arm1 = -seen.distance * out;
+    Vec<T> place = -ends.apart;
+    if constexpr (requires { ends.q2; }) place = rotate_back(ends.q2, place);
+    const Seen<T> seen = see<T>(c, at(c.facet), at(c.length), place);
+    Vec<T> out = seen.normal;
+    if constexpr (requires { ends.q2; }) out = rotate(ends.q2, out);
+    const Vec<T> arm1 = -seen.distance * out;
     return Touch<T>{Vec<T>(-out), seen.overlap, copy(arm1), Vec<T>(arm1 - ends.apart)};
   }
   template <class At, class Ends>
@@ -119,8 +130,7 @@ struct WithWall {
     if constexpr (requires { T::width; }) {
       Seen<T> all;
       for (int k = 0; k < T::width; ++k) {
-        const Seen<Real> one =
-            see<Real>(c, facet.v[k], length.v[k], {place[0].v[k], place[1].v[k], place[2].v[k]});
+        const Seen<Real> one = see<Real>(c, facet.v[k], length.v[k], {place[0].v[k], place[1].v[k], place[2].v[k]});
         for (int a = 0; a < 3; ++a) all.normal[a].v[k] = one.normal[a];
         all.distance.v[k] = one.distance;
         all.overlap.v[k] = one.overlap;

@@ -27,10 +27,10 @@ class Penalty final : public Colliding<LinearContact> {
                                  .fallback = "0.2857142857142857"}};
 
  protected:
-  Real hardness(Real r1, Real r2) const override {
+  Real stiffness_between(Real r1, Real r2) const override {
     return normal_stiffness.given() ? *normal_stiffness : *young * std::numbers::pi * r1 * r2 / (r1 + r2);
   }
-  Real hardness_at_plane(Real r) const override {
+  Real stiffness_at_plane(Real r) const override {
     return normal_stiffness.given() ? *normal_stiffness : *young * std::numbers::pi * r;
   }
   Real tangential_ratio() const override { return *tangential_ratio_; }

@@ -2,6 +2,7 @@
 // What the stresses of elements share: which bonds count, and the volume of an element.
 
 #include <algorithm>
+#include <limits>
 
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/sphere.hpp"
@@ -26,8 +27,10 @@ class OverBonds : public Derived {
   }
 
  protected:
-  /// Omega of Eq (6): that of the sphere.
-  Real volume(Index row) const { return sphere_volume(radius[row]); }
+  /// Omega of Eq (6): that of the sphere. Of a wall, which has no stress, infinite.
+  Real volume(Index row) const {
+    return radius[row] > 0 ? sphere_volume(radius[row]) : std::numeric_limits<Real>::infinity();
+  }
 };
 
 }  // namespace beadwork

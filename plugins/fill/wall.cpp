@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "core/base/failure.hpp"
+#include "core/base/memory.hpp"
 #include "core/domain/surface.hpp"
 #include "core/io/stl.hpp"
 #include "plugins/fill/spheres.hpp"
@@ -14,58 +15,50 @@ namespace beadwork {
 class Wall final : public SphereFiller {
  public:
   static constexpr const char* about =
-      "Rigid wall: plane, disc, box, cylinder, sphere, or a surface of triangles. Contacts push elements off it; it stands "
+      "Rigid wall: plane, disc, box, cylinder, sphere, or a surface of triangles. Contacts push elements off it; it "
+      "stands "
       "still along the axes along which no load moves it";
-  Param<std::string> set{
-      this,
-      {.name = "set", .doc = "Name of the wall, as a set; several walls of one name move alike", .role = Role::makes_set}};
+  Param<std::string> set{this,
+                         {.name = "set",
+                          .doc = "Name of the wall, as a set; loads move several walls of one name alike",
+                          .role = Role::makes_set}};
   Param<std::string> shape{this,
                            {.name = "shape",
                             .doc = "plane: a half-space; disc: thin, of both sides; box, cylinder, sphere: full, or "
                                    "hollow with side=\"inside\"; surface: the triangles of a file",
                             .choices = {"plane", "disc", "box", "cylinder", "sphere", "surface"}}};
-  Param<Vec3> at{this,
-                 {.name = "at",
-                  .unit = "m",
-                  .doc = "A point of the plane; the centre of disc, box and sphere, and of one end of a cylinder; where "
-                         "the origin of a file comes to lie. The wall turns about it"}};
+  Param<Vec3> at{
+      this,
+      {.name = "at",
+       .unit = "m",
+       .doc = "A point of the plane; the centre of disc, box and sphere, and of one end of a cylinder; where "
+              "the origin of a file comes to lie. The wall turns about it"}};
   Param<Vec3> normal{this,
                      {.name = "normal",
                       .doc = "Of plane and disc, of any length: from the wall to where the elements are",
                       .optional = true}};
   Param<Real> radius{
-      this, {.name = "radius", .unit = "m", .range = positive, .doc = "Of disc, cylinder and sphere", .optional = true}};
-  Param<Vec3> to{
-      this, {.name = "to", .unit = "m", .doc = "Centre of the other end of a cylinder", .optional = true}};
-  Param<Vec3> size{this,
-                   {.name = "size",
-                    .unit = "m",
-                    .range = positive,
-                    .doc = "Edges of a box along x, y and z",
-                    .optional = true}};
-  Param<std::string> side{this,
-                          {.name = "side",
-                           .doc = "On which elements are, of box, cylinder and sphere, which are full where it is absent; "
-                                  "of a closed surface, whose triangles go round counterclockwise seen from outside; one "
-                                  "without 'side' is a shell that elements touch on both",
-                           .optional = true,
-                           .choices = {"outside", "inside"}}};
-  Param<std::string> ends{this,
-                          {.name = "ends",
-                           .doc = "Of a hollow cylinder",
-                           .optional = true,
-                           .choices = {"closed", "open"}}};
-  Param<std::string> file{this,
-                          {.name = "file",
-                           .doc = "STL of a surface, of text or binary",
-                           .optional = true,
-                           .role = Role::file}};
-  Param<Real> unit{this,
-                   {.name = "unit",
-                    .unit = "m",
-                    .range = positive,
-                    .doc = "What 1 in the file is: 1 mm, say",
-                    .optional = true}};
+      this,
+      {.name = "radius", .unit = "m", .range = positive, .doc = "Of disc, cylinder and sphere", .optional = true}};
+  Param<Vec3> to{this, {.name = "to", .unit = "m", .doc = "Centre of the other end of a cylinder", .optional = true}};
+  Param<Vec3> size{
+      this,
+      {.name = "size", .unit = "m", .range = positive, .doc = "Edges of a box along x, y and z", .optional = true}};
+  Param<std::string> side{
+      this,
+      {.name = "side",
+       .doc = "On which elements are, of box, cylinder and sphere, which are full where it is absent; "
+              "of a closed surface, whose triangles go round counterclockwise seen from outside; one "
+              "without 'side' is a shell that elements touch on both",
+       .optional = true,
+       .choices = {"outside", "inside"}}};
+  Param<std::string> ends{
+      this, {.name = "ends", .doc = "Of a hollow cylinder", .optional = true, .choices = {"closed", "open"}}};
+  Param<std::string> file{
+      this, {.name = "file", .doc = "STL of a surface, of text or binary", .optional = true, .role = Role::file}};
+  Param<Real> unit{
+      this,
+      {.name = "unit", .unit = "m", .range = positive, .doc = "What 1 in the file is: 1 mm, say", .optional = true}};
   Param<Real> own_mass{this,
                        {.name = "mass",
                         .unit = "kg",
@@ -105,7 +98,8 @@ class Wall final : public SphereFiller {
       if (!has(needed_by) && !has(taken_by) && param->in_deck())
         complaints.error(param->at(), fmt::format("a {} has no '{}'", *shape, name));
     }
-    if (normal.given() && !(normal->norm() > 0)) complaints.error(normal.at(), "'normal' has no length, so no direction");
+    if (normal.given() && !(normal->norm() > 0))
+      complaints.error(normal.at(), "'normal' has no length, so no direction");
     if (to.given() && !((*to - *at).norm() > 0)) complaints.error(to.at(), "'to' is where 'at' is");
     if (ends.given() && !is_hollow()) complaints.error(ends.at(), "'ends' belongs to side=\"inside\"");
     if (own_inertia.given() && !own_mass.in_deck())
@@ -129,7 +123,10 @@ class Wall final : public SphereFiller {
     const std::vector<Facet> parts = facets(job);
     const Index row = add_rows(domain, *set, 1);
     bind(domain);
-    domain.elements().column("position").view<Vec3>().set(row, *at);
+    domain.elements()
+        .column("position")
+        .view<Vec3>()
+        .set(row, *shape == "cylinder" ? Vec3((*at + *to) / 2) : Vec3(*at));
     domain.elements().column("radius").view<Real>()[row] = 0;
     if (mass) mass[row] = own_mass.given() ? *own_mass : no_mass;
     if (inertia) inertia[row] = own_inertia.given() ? *own_inertia : no_mass;
@@ -139,20 +136,13 @@ class Wall final : public SphereFiller {
  private:
   bool is_hollow() const { return side.given() && *side == "inside"; }
 
-  static Facet facet(FacetKind kind, const Vec3& v0, const Vec3& v1, Real size = 0, Real length = 0) {
-    Facet one{kind, {}, size, length};
-    one.v.fill(Vec3::Zero());
-    one.v[0] = v0;
-    one.v[1] = v1;
-    return one;
-  }
-
   // In the frame of the wall, whose origin is 'at'.
   std::vector<Facet> facets(const FillJob& job) const {
     const Vec3 here = Vec3::Zero();
-    if (*shape == "plane") return {facet(FacetKind::plane, here, normal->normalized())};
-    if (*shape == "disc") return {facet(FacetKind::disc, here, normal->normalized(), *radius)};
-    if (*shape == "sphere") return {facet(is_hollow() ? FacetKind::bowl : FacetKind::ball, here, here, *radius)};
+    if (*shape == "plane") return {Facet::of(FacetKind::plane, here, normal->normalized())};
+    if (*shape == "disc") return {Facet::of(FacetKind::disc, here, normal->normalized(), *radius)};
+    if (*shape == "sphere")
+      return {Facet::of(is_hollow() ? FacetKind::hollow_sphere : FacetKind::sphere, here, here, *radius)};
     if (*shape == "box") return box();
     if (*shape == "cylinder") return cylinder();
     return surface(job);
@@ -160,39 +150,51 @@ class Wall final : public SphereFiller {
 
   std::vector<Facet> box() const {
     const Vec3 half = *size / 2;
-    if (!is_hollow()) return {facet(FacetKind::box, Vec3::Zero(), half)};
+    if (!is_hollow()) return {Facet::of(FacetKind::box, Vec3::Zero(), half)};
     std::vector<Facet> sides;
     for (int axis = 0; axis < 3; ++axis)
       for (const Real sign : {-1.0, 1.0}) {
         const Vec3 out = sign * Vec3::Unit(axis);
-        sides.push_back(facet(FacetKind::plane, half[axis] * out, -out));
+        sides.push_back(Facet::of(FacetKind::plane, half[axis] * out, -out));
       }
     return sides;
   }
 
+  // Its place is its middle.
   std::vector<Facet> cylinder() const {
-    const Vec3 along = (*to - *at).normalized();
+    const Vec3 along = (*to - *at).normalized(), from = (*at - *to) / 2;
     const Real length = (*to - *at).norm();
-    if (!is_hollow()) return {facet(FacetKind::cylinder, Vec3::Zero(), along, *radius, length)};
-    std::vector<Facet> parts = {facet(FacetKind::barrel, Vec3::Zero(), along, *radius, length)};
-    if (!ends.given() || *ends == "closed") {
-      parts.push_back(facet(FacetKind::plane, Vec3::Zero(), along));
-      parts.push_back(facet(FacetKind::plane, length * along, -along));
-    }
-    return parts;
+    if (!is_hollow()) return {Facet::of(FacetKind::cylinder, from, along, *radius, length)};
+    if (ends.given() && *ends == "open") return {Facet::of(FacetKind::pipe, from, along, *radius, length)};
+    return {Facet::of(FacetKind::hollow_cylinder, from, along, *radius, length),
+            Facet::of(FacetKind::plane, from, along), Facet::of(FacetKind::plane, -from, -along)};
   }
 
   std::vector<Facet> surface(const FillJob& job) const try {
     std::vector<Triangle> triangles = read_stl(*file);
     for (Triangle& triangle : triangles)
       for (Vec3& corner : triangle) corner *= *unit;
+    constexpr Real bytes = 2000;  // with its share of edges and corners, while these are looked for and in checkpoints
+    if (const std::string why = why_no_memory(static_cast<Real>(triangles.size()), "triangles", bytes); !why.empty())
+      refuse(file.at(), why);
     const Sides sides = !side.given() ? Sides::both : is_hollow() ? Sides::back : Sides::front;
     std::vector<Facet> parts = facets_of(triangles, sides);
     const auto count = [&](FacetKind kind) {
       return std::count_if(parts.begin(), parts.end(), [&](const Facet& part) { return part.kind == kind; });
     };
-    job.log.say(fmt::format("wall '{}': {} of {} triangles, {} edges and {} corners that stand out", *set,
-                            count(FacetKind::face), triangles.size(), count(FacetKind::edge), count(FacetKind::corner)));
+    Eigen::AlignedBox3d extent;
+    for (const Triangle& triangle : triangles)
+      for (const Vec3& corner : triangle) extent.extend(Eigen::Vector3d(corner + *at));
+    job.log.say(fmt::format(
+        "wall '{}': {} of {} triangles, {} edges and {} corners that stand out, from ({:.4g} {:.4g} "
+        "{:.4g}) to ({:.4g} {:.4g} {:.4g}) m",
+        *set, count(FacetKind::face), triangles.size(), count(FacetKind::edge), count(FacetKind::corner),
+        extent.min().x(), extent.min().y(), extent.min().z(), extent.max().x(), extent.max().y(), extent.max().z()));
+    if (!side.given() && is_closed(triangles))
+      job.log.warn(
+          fmt::format("{}: the surface is closed, and without 'side' a shell: elements that are thicker than it "
+                      "are pushed by its far side too; side=\"outside\" makes it full",
+                      file.at().where()));
     return parts;
   } catch (const std::invalid_argument& wrong) {
     refuse(file.at(), fmt::format("\"{}\": {}", *file, wrong.what()));

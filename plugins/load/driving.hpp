@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <vector>
+
 #include "core/base/text.hpp"
 #include "core/base/units.hpp"
 #include "core/mechanics/course.hpp"
@@ -24,10 +27,11 @@ class DrivingLoad : public Load {
 
  public:
   Param<std::string> set{this, {.name = "set", .doc = "Set that is moved", .role = Role::set}};
-  Param<std::string> axis{this,
-                          {.name = "axis",
-                           .doc = "Axis along which it is moved, or about which it is turned; what is not named is free",
-                           .choices = {"x", "y", "z"}}};
+  Param<std::string> axis{
+      this,
+      {.name = "axis",
+       .doc = "Axis along which it is moved, or about which it is turned; what is not named is free",
+       .choices = {"x", "y", "z"}}};
   Param<Formula> velocity{this,
                           {.name = "velocity",
                            .unit = words_.unit,
@@ -43,13 +47,14 @@ class DrivingLoad : public Load {
                            "multiplied by what has set in",
                     .fallback = "0 s",
                     .instead = "table"}};
-  Param<QuantityRows> table{this,
-                            {.name = "table",
-                             .doc = fmt::format("Instead of 'velocity': times and velocities with units, joined by commas: "
-                                                "\"{}\"; straight lines between them",
-                                                words_.rows),
-                             .columns = {"s", words_.unit},
-                             .one_of = "motion"}};
+  Param<QuantityRows> table{
+      this,
+      {.name = "table",
+       .doc = fmt::format("Instead of 'velocity': times and velocities with units, joined by commas: "
+                          "\"{}\"; straight lines between them",
+                          words_.rows),
+       .columns = {"s", words_.unit},
+       .one_of = "motion"}};
 
   void check(Complaints& complaints) const override {
     if (table.in_deck() && rise.in_deck())
@@ -87,11 +92,14 @@ class DrivingLoad : public Load {
           return formula.evaluate({&t, 1}) * share.at(t).velocity;
         },
         [formula, share](Real t) {
-          const auto [value, slope] = formula.evaluate_with_slope({&t, 1}, 0);
+          const Expression::Sloped now = formula.evaluate_with_slope({&t, 1}, 0);
           const PrescribedMotion set_in = share.at(t);
-          return slope * set_in.velocity + value * set_in.acceleration;
+          return now.slope * set_in.velocity + now.value * set_in.acceleration;
         },
-        std::move(kinks));
+        std::move(kinks),
+        [formula, share](Real t) {
+          return formula.evaluate_with_slope({&t, 1}, 0).noise * share.at(t).velocity;
+        });
     c.motion = [course](Real t) { return course->at(t); };
   }
 

@@ -89,7 +89,9 @@ class Verlet final : public Mover {
   void check_stage(const std::string& stage, bool any_law, Complaints& complaints) const override {
     if (!any_law && !fixed_step.given())
       complaints.error(
-          at(), fmt::format("no bonds act in stage '{}', so nothing limits its time step: give 'time-step'", stage));
+          at(),
+          fmt::format("no bonds and no contacts act in stage '{}', so nothing limits its time step: give 'time-step'",
+                      stage));
   }
   std::string limited_by() const override { return step_.by; }
 

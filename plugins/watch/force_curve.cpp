@@ -81,10 +81,9 @@ class ForceCurve final : public Watcher {
 
  private:
   bool turns() const { return axis->size() == 2; }
-  // The reaction along an axis is known of what is prescribed along it alone, and of a body that turns and is held along
-  // its axis.
+  // Of a body that turns all forces are known that keep it.
   static bool tells(const Constraint& c, int axis) {
-    return c.axis == axis || (c.body && c.body->along && axis == c.axis - 3);
+    return c.axis == axis || (c.body && axis < 3 && (c.prescribes() >> axis & 1));
   }
 };
 

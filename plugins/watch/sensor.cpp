@@ -31,7 +31,7 @@ class Sensor final : public Watcher, private Gauge {
                              .choices = {"sum", "mean", "min", "max", "rms", "count"}}};
   Param<std::string> set{this,
                          {.name = "set",
-                          .doc = "Set of elements that is looked at; all where absent",
+                          .doc = "Set of elements that is looked at; all but walls where absent",
                           .optional = true,
                           .role = Role::set}};
   Param<std::string> bonds{
@@ -119,7 +119,8 @@ class Sensor final : public Watcher, private Gauge {
     if (set.given())
       for (const Index row : domain.set(*set)) take(column, row);
     else
-      for (Index row = 0; row < domain.size(); ++row) take(column, row);
+      for (Index row = 0; row < domain.size(); ++row)
+        if (!domain.walls().is_wall(row)) take(column, row);
   }
 
   void take(const Column& column, Index row) {

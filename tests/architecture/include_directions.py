@@ -10,7 +10,7 @@ ALLOWED = {
     "deck": {"base"},
     "mechanics": {"base"},
     "domain": {"base", "mechanics"},
-    "io": {"base", "domain"},
+    "io": {"base", "domain", "mechanics"},
     "packing": {"base", "domain"},
     "bonds": {"base", "domain", "mechanics"},
     "plugin": {"base", "deck", "domain", "mechanics", "bonds"},

@@ -44,7 +44,8 @@ void plain_scalar_loop(benchmark::State& state) {
   for (auto _ : state) {
     for (Load& l : load) l = Load{zero<Vec3>(), zero<Vec3>(), {0, 0}};
     for (std::size_t p = 0; p < pairs.size(); ++p) {
-      const auto i = static_cast<std::size_t>(lattice.pairs[p].first), j = static_cast<std::size_t>(lattice.pairs[p].second);
+      const auto i = static_cast<std::size_t>(lattice.pairs[p].first),
+                 j = static_cast<std::size_t>(lattice.pairs[p].second);
       const Vec3 apart = place[j].x - place[i].x;
       const Real l = std::sqrt(dot(apart, apart)), delta = place[i].radius + place[j].radius - l;
       Pair& pair = pairs[p];
@@ -58,8 +59,10 @@ void plain_scalar_loop(benchmark::State& state) {
       const Real damping = pair.viscosity * HertzContact::damping(pair.stiffness, delta);
       const Real push = std::max(0.0, HertzContact::force(pair.stiffness, delta) - damping * v_n);
       const Vec3 slide = rate - v_n * n - cross<Real>(arm1 * motion[i].w + arm2 * motion[j].w, n);
-      const Real k = ratio * HertzContact::slope(pair.stiffness, delta), before = pair.held_stiffness > 0 ? pair.held_stiffness : k;
-      const Vec3 carried = carried_across<Real>(n, pair.held, 0.5 * dt * dot<Real>(motion[i].w + motion[j].w, n)), way = dt * slide;
+      const Real k = ratio * HertzContact::slope(pair.stiffness, delta),
+                 before = pair.held_stiffness > 0 ? pair.held_stiffness : k;
+      const Vec3 carried = carried_across<Real>(n, pair.held, 0.5 * dt * dot<Real>(motion[i].w + motion[j].w, n)),
+                 way = dt * slide;
       const Vec3 held = friction<Real>(carried, before, k, way, friction_coefficient * push);
       pair.lost += lost_by_friction<Real>(carried, before, held, k, way) + damping * v_n * v_n * dt;
       pair.held = held;

@@ -16,16 +16,9 @@
 namespace beadwork {
 namespace {
 
-using testing::Scratch;
 using ::testing::HasSubstr;
+using testing::Scratch;
 using ::testing::ThrowsMessage;
-
-Facet facet(FacetKind kind, const Vec3& v0, const Vec3& v1, Real size = 0, Real length = 0) {
-  Facet one{kind, {}, size, length};
-  one.v.fill(Vec3::Zero());
-  one.v[0] = v0, one.v[1] = v1;
-  return one;
-}
 
 /// One wall of these facets, which stands at the origin unturned.
 struct Wall {
@@ -79,9 +72,7 @@ std::vector<Triangle> cube(Real h) {
 
 /// A hilly ground over a grid of n x n squares: ridges, valleys and saddles.
 std::vector<Triangle> hills(int n, Real height) {
-  const auto at = [&](int i, int j) {
-    return Vec3(i, j, height * std::sin(1.7 * i + 0.3) * std::cos(2.3 * j));
-  };
+  const auto at = [&](int i, int j) { return Vec3(i, j, height * std::sin(1.7 * i + 0.3) * std::cos(2.3 * j)); };
   std::vector<Triangle> all;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -100,43 +91,51 @@ TEST(Facet, tells_how_far_and_in_which_direction_its_surface_is) {
   };
   const Real s = std::sqrt(0.5);
   const std::vector<Case> cases = {
-      {facet(FacetKind::plane, {0, 0, 1}, {0, 0, 1}), {5, 6, 3}, {0, 0, 1}, 2},
-      {facet(FacetKind::plane, {0, 0, 1}, {0, 0, 1}), {5, 6, -3}, {0, 0, 1}, -4},
-      {facet(FacetKind::disc, {0, 0, 0}, {0, 0, 1}, 2), {1, 1, -3}, {0, 0, -1}, 3},
-      {facet(FacetKind::disc, {0, 0, 0}, {0, 0, 1}, 2), {3, 0, 1}, {s, 0, s}, std::sqrt(2.)},
-      {facet(FacetKind::box, {0, 0, 0}, {1, 2, 3}), {0, 0, 5}, {0, 0, 1}, 2},
-      {facet(FacetKind::box, {0, 0, 0}, {1, 2, 3}), {-2, 3, 0}, {-s, s, 0}, std::sqrt(2.)},
-      {facet(FacetKind::box, {0, 0, 0}, {1, 2, 3}), {0.5, 1.9, 0}, {0, 1, 0}, -0.1},
-      {facet(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {3, 0, 2}, {1, 0, 0}, 2},
-      {facet(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {0.5, 0, -2}, {0, 0, -1}, 2},
-      {facet(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {2, 0, 5}, {s, 0, s}, std::sqrt(2.)},
-      {facet(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {0.2, 0, 3.9}, {0, 0, 1}, -0.1},
-      {facet(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {0, 0.9, 2}, {0, 1, 0}, -0.1},
-      {facet(FacetKind::barrel, {0, 0, 0}, {0, 0, 1}, 3, 4), {2, 0, 1}, {-1, 0, 0}, 1},
-      {facet(FacetKind::ball, {0, 0, 0}, {0, 0, 0}, 2), {0, 5, 0}, {0, 1, 0}, 3},
-      {facet(FacetKind::bowl, {0, 0, 0}, {0, 0, 0}, 9), {0, 5, 0}, {0, -1, 0}, 4},
+      {Facet::of(FacetKind::plane, {0, 0, 1}, {0, 0, 1}), {5, 6, 3}, {0, 0, 1}, 2},
+      {Facet::of(FacetKind::plane, {0, 0, 1}, {0, 0, 1}), {5, 6, -3}, {0, 0, 1}, -4},
+      {Facet::of(FacetKind::disc, {0, 0, 0}, {0, 0, 1}, 2), {1, 1, -3}, {0, 0, -1}, 3},
+      {Facet::of(FacetKind::disc, {0, 0, 0}, {0, 0, 1}, 2), {3, 0, 1}, {s, 0, s}, std::sqrt(2.)},
+      {Facet::of(FacetKind::box, {0, 0, 0}, {1, 2, 3}), {0, 0, 5}, {0, 0, 1}, 2},
+      {Facet::of(FacetKind::box, {0, 0, 0}, {1, 2, 3}), {-2, 3, 0}, {-s, s, 0}, std::sqrt(2.)},
+      {Facet::of(FacetKind::box, {0, 0, 0}, {1, 2, 3}), {0.5, 1.9, 0}, {0, 1, 0}, -0.1},
+      {Facet::of(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {3, 0, 2}, {1, 0, 0}, 2},
+      {Facet::of(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {0.5, 0, -2}, {0, 0, -1}, 2},
+      {Facet::of(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {2, 0, 5}, {s, 0, s}, std::sqrt(2.)},
+      {Facet::of(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {0.2, 0, 3.9}, {0, 0, 1}, -0.1},
+      {Facet::of(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4), {0, 0.9, 2}, {0, 1, 0}, -0.1},
+      {Facet::of(FacetKind::hollow_cylinder, {0, 0, 0}, {0, 0, 1}, 3, 4), {2, 0, 1}, {-1, 0, 0}, 1},
+      {Facet::of(FacetKind::sphere, {0, 0, 0}, {0, 0, 0}, 2), {0, 5, 0}, {0, 1, 0}, 3},
+      {Facet::of(FacetKind::hollow_sphere, {0, 0, 0}, {0, 0, 0}, 9), {0, 5, 0}, {0, -1, 0}, 4},
   };
   for (const auto& [part, place, normal, distance] : cases) {
     const Nearest<Real> found = Wall({part}).at(place);
     EXPECT_NEAR(found.distance, distance, 1e-14) << static_cast<int>(part.kind) << " from " << place.transpose();
-    EXPECT_NEAR((found.normal - normal).norm(), 0, 1e-14) << static_cast<int>(part.kind) << " from " << place.transpose();
+    EXPECT_NEAR((found.normal - normal).norm(), 0, 1e-14)
+        << static_cast<int>(part.kind) << " from " << place.transpose();
     EXPECT_TRUE(found.meets);
   }
 }
 
-TEST(Facet, of_a_hollow_cylinder_ends_with_it) {
-  const Wall wall({facet(FacetKind::barrel, {0, 0, 0}, {0, 0, 1}, 3, 4)});
-  EXPECT_TRUE(wall.at({2, 0, 4}).meets);
-  EXPECT_FALSE(wall.at({2, 0, 4.1}).meets);
-  EXPECT_FALSE(wall.at({2, 0, -0.1}).meets);
+// From within, from without, and at its rim: the distance goes on without a jump.
+TEST(Facet, of_a_pipe_is_thin_and_has_rims) {
+  const Wall wall({Facet::of(FacetKind::pipe, {0, 0, 0}, {0, 0, 1}, 3, 4)});
+  EXPECT_NEAR(wall.at({2, 0, 4}).distance, 1, 1e-14);
+  EXPECT_NEAR(wall.at({2, 0, 4}).normal.x(), -1, 1e-14);
+  EXPECT_NEAR(wall.at({4.5, 0, 1}).distance, 1.5, 1e-14);
+  EXPECT_NEAR(wall.at({4.5, 0, 1}).normal.x(), 1, 1e-14);
+  EXPECT_NEAR(wall.at({2, 0, 5}).distance, std::sqrt(2.), 1e-14);
+  EXPECT_NEAR(wall.at({3, 0, -1}).distance, 1, 1e-14);
+  EXPECT_NEAR(wall.at({3, 0, -1}).normal.z(), -1, 1e-14);
 }
 
 // On the axis, in the centre, on an edge: some direction, but one of length 1, and no division by nothing.
 TEST(Facet, has_a_direction_wherever_the_place_is) {
-  for (const Facet& part : {facet(FacetKind::disc, {0, 0, 0}, {0, 0, 1}, 2), facet(FacetKind::box, {0, 0, 0}, {1, 1, 1}),
-                            facet(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4),
-                            facet(FacetKind::barrel, {0, 0, 0}, {0, 0, 1}, 3, 4),
-                            facet(FacetKind::ball, {0, 0, 0}, {0, 0, 0}, 2), facet(FacetKind::bowl, {0, 0, 0}, {0, 0, 0}, 2)})
+  for (const Facet& part :
+       {Facet::of(FacetKind::disc, {0, 0, 0}, {0, 0, 1}, 2), Facet::of(FacetKind::box, {0, 0, 0}, {1, 1, 1}),
+        Facet::of(FacetKind::cylinder, {0, 0, 0}, {0, 0, 1}, 1, 4),
+        Facet::of(FacetKind::hollow_cylinder, {0, 0, 0}, {0, 0, 1}, 3, 4),
+        Facet::of(FacetKind::sphere, {0, 0, 0}, {0, 0, 0}, 2),
+        Facet::of(FacetKind::hollow_sphere, {0, 0, 0}, {0, 0, 0}, 2)})
     for (const Vec3& place : {Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(1, 0, 0), Vec3(1, 1, 1), Vec3(2, 0, 0)}) {
       const Nearest<Real> found = Wall({part}).at(place);
       EXPECT_NEAR(found.normal.norm(), 1, 1e-14) << static_cast<int>(part.kind) << " from " << place.transpose();
@@ -163,8 +162,9 @@ TEST(Surface, that_is_convex_has_one_part_for_each_place_outside) {
 // above a corner, half-way between two.
 TEST(Surface, has_one_part_also_for_a_place_just_above_an_edge_or_a_corner) {
   const Wall wall(facets_of(cube(1), Sides::front));
-  for (const Vec3& p : {Vec3(0, 0, 1.5), Vec3(0.3, 0.3, 1.5), Vec3(-0.3, 0.3, 1.5), Vec3(1.5, 0, 0), Vec3(0, -1.5, 0.25), Vec3(1, 0, 1.5),
-                        Vec3(1, 1, 1.5), Vec3(-1, 1, 1.5), Vec3(1, -1, -1.5), Vec3(1.5, 1, 1), Vec3(1.5, 1.5, 1.5), Vec3(1.5, 1.5, 0)}) {
+  for (const Vec3& p : {Vec3(0, 0, 1.5), Vec3(0.3, 0.3, 1.5), Vec3(-0.3, 0.3, 1.5), Vec3(1.5, 0, 0),
+                        Vec3(0, -1.5, 0.25), Vec3(1, 0, 1.5), Vec3(1, 1, 1.5), Vec3(-1, 1, 1.5), Vec3(1, -1, -1.5),
+                        Vec3(1.5, 1, 1), Vec3(1.5, 1.5, 1.5), Vec3(1.5, 1.5, 0)}) {
     const auto met = wall.met(p);
     ASSERT_EQ(met.size(), 1U) << p.transpose();
     EXPECT_NEAR(met[0].distance, (p - p.cwiseMax(-1).cwiseMin(1)).norm(), 1e-13);
@@ -177,7 +177,8 @@ TEST(Surface, has_one_part_also_for_a_place_just_above_an_edge_or_a_corner) {
                      Vec3(std::round(std::cos(b)), std::round(std::sin(b)), 0)});
   }
   const Wall flat(facets_of(plate));
-  for (const Vec3& p : {Vec3(0, 0, 0.5), Vec3(0.5, 0, 0.5), Vec3(0, -0.5, 0.5), Vec3(0.25, 0.25, -0.5), Vec3(0.5, 0.5, 0.5)})
+  for (const Vec3& p :
+       {Vec3(0, 0, 0.5), Vec3(0.5, 0, 0.5), Vec3(0, -0.5, 0.5), Vec3(0.25, 0.25, -0.5), Vec3(0.5, 0.5, 0.5)})
     EXPECT_EQ(flat.met(p).size(), 1U) << p.transpose();
 }
 
@@ -227,41 +228,110 @@ TEST(Surface, that_is_closed_is_touched_from_within_at_its_faces) {
     for (const Nearest<Real>& each : met)
       EXPECT_NEAR((p - each.distance * each.normal).cwiseAbs().maxCoeff(), 1, 1e-14);
   }
-  EXPECT_TRUE(wall.met(Vec3(0, 0, 1.2)).size() < 6);  // what has passed a face touches it no more
+  EXPECT_EQ(wall.met(Vec3(0, 0, 1.2)).size(),
+            1U);  // what has passed a face touches it no more, nor the sides; the one across it does
 }
 
-// A notch on the far side is no edge for what stands in front of the body.
+// A notch on the far side is no edge for what stands in front of the body, however near it is.
 TEST(Surface, with_one_side_is_not_touched_through_the_body) {
-  std::vector<Triangle> sheet = hills(5, 0.8);
-  const Wall front(facets_of(sheet, Sides::front)), back(facets_of(sheet, Sides::back)), both(facets_of(sheet));
+  std::vector<Triangle> body = cube(1);
+  std::erase_if(body, [](const Triangle& t) { return t[0].z() < 0 && t[1].z() < 0 && t[2].z() < 0; });
+  const Vec3 apex(0.1, 0.2, 0.7), rim[] = {{-1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {1, -1, -1}};
+  for (int k = 0; k < 4; ++k) body.push_back({rim[k], rim[(k + 1) % 4], apex});
+  const Wall full(facets_of(body, Sides::front)), shell(facets_of(body));
   std::mt19937 random(7);
   for (int n = 0; n < 300; ++n) {
-    const Vec3 p = Vec3(2.5, 2.5, 0) + random_place(random, 1.5);
-    EXPECT_LE(front.met(p).size() + back.met(p).size(), both.met(p).size() + 2);
-    EXPECT_GE(front.met(p).size() + back.met(p).size(), 1U);
+    const Vec3 p = Vec3(0, 0, 1.2) + 0.15 * random_place(random, 1);
+    const auto met = full.met(p);
+    ASSERT_EQ(met.size(), 1U) << p.transpose();
+    EXPECT_NEAR(met[0].distance, p.z() - 1, 1e-14);
+    EXPECT_GT(shell.met(p).size(), 1U);  // of which the notch is a part
   }
-  EXPECT_GT(front.met(Vec3(2.5, 2.5, 3)).size(), 0U);
-  EXPECT_EQ(back.met(Vec3(2.3, 2.6, 50)).size(), 0U);
+  EXPECT_EQ(full.met(Vec3(0.1, 0.2, 0.5)).size(), 4U);  // and from below all sides of the notch are
+}
+
+// A hollow of many facets is as one of few: at a valley that is hardly bent the nearer of the two is touched, so that what is
+// stored goes on without a jump; at one that is bent more both are.
+TEST(Surface, that_is_round_and_hollow_is_touched_once) {
+  const auto prism = [](int sides) {
+    std::vector<Triangle> all;
+    for (int k = 0; k < sides; ++k) {
+      const auto at = [&](int n, Real z) {
+        const Real angle = 2 * 3.14159265358979323846 * n / sides;
+        return Vec3(4 * std::cos(angle), 4 * std::sin(angle), z);
+      };
+      const int next = (k + 1) % sides;
+      all.push_back({at(k, -3), at(next, -3), at(next, 3)});
+      all.push_back({at(k, -3), at(next, 3), at(k, 3)});
+    }
+    return all;
+  };
+  for (const int sides : {30, 360}) {
+    const Wall wall(facets_of(prism(sides)));
+    Real before = 0;
+    for (int n = 0; n <= 5000; ++n) {
+      const Real angle = n * 1e-4;
+      const Vec3 p = 3.05 * Vec3(std::cos(angle), std::sin(angle), 0.01);  // a sphere of radius 1 overlaps by 5 %
+      Real stored = 0;
+      int touched = 0;
+      for (const Nearest<Real>& each : wall.met(p))
+        if (each.distance < 1) stored += 0.5 * (1 - each.distance) * (1 - each.distance), ++touched;
+      ASSERT_EQ(touched, 1) << sides << " sides, at " << angle;
+      if (n > 0) EXPECT_NEAR(stored, before, 1e-5) << sides << " sides, at " << angle;
+      before = stored;
+    }
+  }
+  const Wall square(facets_of(prism(4)));
+  EXPECT_EQ(square.met(Vec3(2.9, 0, 0.01)).size(), 2U + 2U);  // and the two across, farther off
+}
+
+// As programs write them: in single precision, each triangle with corners of its own.
+TEST(Surface, welds_corners_that_differ_by_round_off) {
+  std::vector<Triangle> plate = {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0)},
+                                 {Vec3(3e-7, 0, 0), Vec3(1, 1 - 3e-7, 0), Vec3(0, 1, 0)}};
+  const Wall wall(facets_of(plate));
+  for (const Real off : {-0.1, -1e-7, 0., 1e-7, 0.1})
+    EXPECT_EQ(wall.met(Vec3(0.5 + off, 0.5 - off, 0.3)).size(), 1U) << off;
+}
+
+TEST(Surface, refuses_what_has_gaps_or_is_turned_inside_out) {
+  const std::vector<Triangle> junction = {{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0)},
+                                          {Vec3(0, 0, 0), Vec3(1, -1, 0), Vec3(1, 0, 0)}};
+  EXPECT_THAT([&] { facets_of(junction); }, ThrowsMessage<std::invalid_argument>(
+                                                HasSubstr("corner (1 0 0) lies on the edge from (0 0 0) to (2 0 0)")));
+  EXPECT_THAT([&] { facets_of(hills(3, 0.5), Sides::front); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("it is not closed, 12 of its edges")));
+  std::vector<Triangle> turned = cube(1);
+  for (Triangle& t : turned) std::swap(t[0], t[1]);
+  EXPECT_THAT([&] { facets_of(turned, Sides::front); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("go round clockwise")));
+  EXPECT_THAT([&] { facets_of(turned, Sides::back); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("go round clockwise")));
+  EXPECT_TRUE(is_closed(turned));
+  EXPECT_FALSE(is_closed(hills(3, 0.5)));
 }
 
 TEST(Surface, refuses_an_edge_that_three_triangles_share_and_what_has_no_area) {
   const Vec3 a(0, 0, 0), b(1, 0, 0);
   const std::vector<Triangle> fan = {{a, b, Vec3(0, 1, 0)}, {b, a, Vec3(0, -1, 0)}, {a, b, Vec3(0, 0, 1)}};
-  EXPECT_THAT([&] { facets_of(fan); }, ThrowsMessage<std::invalid_argument>(HasSubstr("3 triangles share the edge from (0 0 0) to (1 0 0)")));
+  EXPECT_THAT([&] { facets_of(fan); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("3 triangles share the edge from (0 0 0) to (1 0 0)")));
   const std::vector<Triangle> twisted = {{a, b, Vec3(0, 1, 0)}, {a, b, Vec3(0, -1, 1)}};
   EXPECT_NO_THROW(facets_of(twisted));
-  EXPECT_THAT([&] { facets_of(twisted, Sides::front); }, ThrowsMessage<std::invalid_argument>(HasSubstr("go round differently")));
+  EXPECT_THAT([&] { facets_of(twisted, Sides::front); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("go round differently")));
   const std::vector<Triangle> needle = {{a, b, Vec3(2, 0, 0)}};
   EXPECT_THAT([&] { facets_of(needle); }, ThrowsMessage<std::invalid_argument>(HasSubstr("no triangle with an area")));
   const std::vector<Triangle> lost = {{a, b, Vec3(0, std::nan(""), 0)}};
-  EXPECT_THAT([&] { facets_of(lost); }, ThrowsMessage<std::invalid_argument>(HasSubstr("triangle 1 has a coordinate that is not finite")));
+  EXPECT_THAT([&] { facets_of(lost); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("triangle 1 has a coordinate that is not finite")));
 }
 
 TEST(Walls, tell_which_of_their_facets_are_near_however_they_stand) {
   const auto triangles = hills(6, 0.5);
   Wall wall(facets_of(triangles));
   const Quat turned = exp_map(Vec3(0.3, -0.7, 1.1));
-  const Walls::Pose pose{Vec3(4, -2, 1), turned};
+  const Pose pose{Vec3(4, -2, 1), turned};
   std::mt19937 random(3);
   std::vector<Vec3> places;
   std::vector<Real> reach;
@@ -270,7 +340,7 @@ TEST(Walls, tell_which_of_their_facets_are_near_however_they_stand) {
     reach.push_back(0.1 + 0.002 * n);
   }
   const std::vector<Index> among = {0};
-  const auto found = wall.walls.near(places, reach, among, std::vector<Walls::Pose>{pose});
+  const auto found = wall.walls.near(places, reach, among, std::vector<Pose>{pose});
   EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
   int within = 0;
   for (Index e = 0; e < 200; ++e) {
@@ -288,13 +358,14 @@ TEST(Walls, tell_which_of_their_facets_are_near_however_they_stand) {
 
 TEST(Walls, know_how_far_their_farthest_point_has_moved) {
   Wall wall(facets_of(cube(1)));
-  const Walls::Pose rest{Vec3(1, 2, 3), identity()};
-  wall.walls.note(0, rest);
-  EXPECT_EQ(wall.walls.moved(0, rest, 10), 0);
-  EXPECT_NEAR(wall.walls.moved(0, {Vec3(1, 2, 3.5), identity()}, 10), 0.5, 1e-15);
-  const Walls::Pose turned{Vec3(1, 2, 3), exp_map(Vec3(0, 0, 0.1))};
-  EXPECT_NEAR(wall.walls.moved(0, turned, 10), 0.1 * std::sqrt(3.), 1e-12);
-  EXPECT_NEAR(wall.walls.moved(0, turned, 0.5), 0.05, 1e-12);  // of what is no farther off than that
+  const Pose rest{Vec3(1, 2, 3), identity()};
+  wall.walls.note(0, rest, 10);
+  EXPECT_EQ(wall.walls.moved(0, rest, 0), 0);
+  EXPECT_NEAR(wall.walls.moved(0, {Vec3(1, 2, 3.5), identity()}, 0), 0.5, 1e-15);
+  const Pose turned{Vec3(1, 2, 3), exp_map(Vec3(0, 0, 0.1))};
+  EXPECT_NEAR(wall.walls.moved(0, turned, 0), 0.1 * std::sqrt(3.), 1e-12);
+  wall.walls.note(0, rest, 0.3);
+  EXPECT_NEAR(wall.walls.moved(0, turned, 0.2), 0.05, 1e-12);  // of what is no farther off than that
 }
 
 std::string binary_stl(const std::vector<Triangle>& triangles) {
@@ -315,7 +386,8 @@ std::string text_stl(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles) {
     text += "  facet normal nan nan nan\n    outer loop\n";
     for (const Vec3& c : t)
-      text += "      vertex " + std::to_string(c.x()) + " " + std::to_string(c.y()) + "\t" + std::to_string(c.z()) + "\n";
+      text +=
+          "      vertex " + std::to_string(c.x()) + " " + std::to_string(c.y()) + "\t" + std::to_string(c.z()) + "\n";
     text += "    endloop\n  endfacet\n";
   }
   return text + "endsolid cube of two words\n";
@@ -330,15 +402,21 @@ TEST(Stl, is_read_from_text_and_from_bytes_alike) {
       for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(read[t][c], triangles[t][c]);
   }
   EXPECT_EQ(parse_stl(text_stl(triangles) + text_stl(triangles), "two.stl").size(), 24U);
+  std::string loud = text_stl(triangles);
+  for (char& c : loud) c = static_cast<char>(std::toupper(c));
+  EXPECT_EQ(parse_stl("\xEF\xBB\xBF" + loud, "loud.stl").size(), 12U);
 }
 
 TEST(Stl, that_is_broken_is_told_with_its_place) {
   const std::string text = text_stl(cube(1)), bytes = binary_stl(cube(1));
   const auto saying = [](const std::string& what) { return ThrowsMessage<DeckFailure>(HasSubstr(what)); };
   EXPECT_THAT([&] { parse_stl(text.substr(0, text.size() - 30), "a.stl"); }, saying("a.stl:"));
-  EXPECT_THAT([&] { parse_stl("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0,5 0\n", "a.stl"); }, saying("a.stl:4:10: error: a number is wanted, got \"0,5\""));
-  EXPECT_THAT([&] { parse_stl("solid\nfacet normal 0 0 1\ninner loop\n", "a.stl"); }, saying("a.stl:3:1: error: 'outer' is wanted, got \"inner\""));
-  EXPECT_THAT([&] { parse_stl(bytes.substr(0, bytes.size() - 1).replace(0, 5, "SOLID"), "a.stl"); }, saying("its head tells of 12 triangles, which are 684 bytes, and the file has 683"));
+  EXPECT_THAT([&] { parse_stl("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0,5 0\n", "a.stl"); },
+              saying("a.stl:4:10: error: a number is wanted, got \"0,5\""));
+  EXPECT_THAT([&] { parse_stl("solid\nfacet normal 0 0 1\ninner loop\n", "a.stl"); },
+              saying("a.stl:3:1: error: 'outer' is wanted, got \"inner\""));
+  EXPECT_THAT([&] { parse_stl(bytes.substr(0, bytes.size() - 1).replace(0, 5, "cubic"), "a.stl"); },
+              saying("its head tells of 12 triangles, which are 684 bytes, and the file has 683"));
   EXPECT_THAT([&] { parse_stl("", "a.stl"); }, saying("no STL"));
   for (std::size_t length = 0; length < text.size() - 30; length += 7)  // cut anywhere: told, not crashed
     EXPECT_THAT([&] { parse_stl(text.substr(0, length), "a.stl"); }, saying("a.stl:"));

@@ -39,6 +39,8 @@ std::size_t leave_out_odd(record::Frame& frame) {
   if (!std::all_of(frame.displacement.begin(), frame.displacement.end(),
                    [&](const Vec3& u) { return finite(u) && is_drawable(u); }))
     frame.displacement.clear();  // it follows from the places
+  const auto walls =
+      frame.walls.empty() ? 0 : std::count(frame.radius.begin(), frame.radius.end(), 0);  // drawn by lines
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < frame.position.size(); ++i)
     if (has_place(frame, i)) rows.push_back(i);
@@ -69,7 +71,7 @@ std::size_t leave_out_odd(record::Frame& frame) {
   };
   leave_gaps(frame.fields);
   for (record::Bonds& bonds : frame.bonds) leave_gaps(bonds.fields);
-  return static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), false));
+  return static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), false) - walls);
 }
 
 }  // namespace beadwork::report

@@ -128,8 +128,9 @@ std::vector<std::size_t> front_to_back(const record::Frame& frame, const Place& 
 }
 
 void draw_walls(Canvas& canvas, const record::Frame& frame) {
+  const Real thickness = 0.3 * mean_radius(frame);
   for (const auto& [from, to] : frame.walls)
-    if (finite(from) && finite(to)) canvas.segment(from, to, 0.3 * mean_radius(frame), palette::wall);
+    if (finite(from) && finite(to)) canvas.segment(from, to, thickness, palette::wall);
 }
 
 void draw_bodies(Canvas& canvas, const Stage& stage, const record::Frame& frame, const Vec3& toward) {
