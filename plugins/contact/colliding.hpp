@@ -290,11 +290,16 @@ class Colliding
   }
   bool damps() const { return *restitution < 1; }
   bool slides() const { return *friction > 0; }
-  Real stiffness_at(Index part, Index element) const {
-    const Real r = this->radius[element], blunt = effective_radius(this->facets(), part, r);
+  Real stiffness_at(const Domain& domain, const Near& pair) const {
+    const Real r = this->radius[pair.first];
+    const Pose wall = domain.pose(pair.second);
+    const Vec3 place = rotate_back(wall.orientation, Vec3(domain.pose(pair.first).position - wall.position));
+    const Real blunt = effective_radius(this->facets(), pair.facet, r, place);
     if (!(blunt > 0))
-      throw std::runtime_error(
-          fmt::format("element of radius {:.6g} m does not fit into the hollow of wall '{}'", r, (*this->between)[1]));
+      refuse(this->between.at(),
+             fmt::format("element {} of radius {:.6g} m does not fit into the hollow wall: make that wider, or leave the "
+                         "element out of the set",
+                         domain.elements().column("id").view<Index>()[pair.first], r));
     return stiffness_at_plane(blunt);
   }
   Real zeta_ = 0;
