@@ -32,7 +32,7 @@ class Turn final : public DrivingLoad {
   }
 
   void check(Complaints& complaints) const override {
-    if (along.in_deck() && !centre.given())
+    if (*along == "free" && !centre.given())
       complaints.error(along.at(), "'along' is of a body that turns about a point: give 'about'");
     DrivingLoad::check(complaints);
   }

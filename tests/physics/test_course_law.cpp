@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "tests/support/deck_run.hpp"
@@ -53,6 +54,25 @@ TEST(Course, pulls_an_element_to_v0_over_w_times_1_minus_cos_whatever_the_step) 
     const Real end = run.curves.at("force").back().at("time");
     EXPECT_NEAR(run.position[0].x(), amplitude * (1 - std::cos(w * end)), 1e-12 * amplitude) << step;
     EXPECT_NEAR(run.velocity[0].x(), 2e-3 * std::sin(w * end), 1e-12 * 2e-3) << step;
+  }
+}
+
+// Soft starts, of which early velocities are small differences of large terms, no more exact than these.
+TEST(Course, follows_velocities_that_begin_as_differences) {
+  const Real T = 2e-3;
+  const std::pair<const char*, std::function<Real(Real)>> starts[] = {
+      {"1 mm/s * (1 - cos(2*pi * t / 2 ms))", [&](Real t) { return t - T / (2 * pi) * std::sin(2 * pi * t / T); }},
+      {"1 mm/s * (1 - exp(-t / 2 ms))", [&](Real t) { return t + T * std::expm1(-t / T); }},
+      {"1 mm/s * ((1 + t / 2 ms)^2 - 1)", [&](Real t) { return t * t / T + t * t * t / (3 * T * T); }},
+      {"1 mm/s * (t / 2 ms - sin(t / 2 ms))", [&](Real t) { return t * t / (2 * T) - T * (1 - std::cos(t / T)); }},
+      {"if(t &lt; 1 ms, 0 mm/s, 1 mm/s * (1 - cos(2*pi * t / 2 ms)))",
+       [&](Real t) { return t < 1e-3 ? 0 : t - 1e-3 - T / (2 * pi) * std::sin(2 * pi * t / T); }}};
+  for (const auto& [formula, place_of] : starts) {
+    const auto run = one_ball(pull(formula), "1 us", "3 ms", place);
+    ASSERT_EQ(run.failure, "") << formula;
+    for (const auto& row : run.curves.at("force"))
+      EXPECT_NEAR(row.at("displacement"), 1e-3 * place_of(row.at("time")), 1e-3 * 1e-17)
+          << formula << " at " << row.at("time");
   }
 }
 

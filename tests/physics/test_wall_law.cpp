@@ -293,6 +293,91 @@ TEST(Wall, that_turns_turns_what_lies_on_it) {
   EXPECT_LT(std::abs(run.energy("residual")), 0.01 * run.energy("work"));
 }
 
+// Friction holds it where it is: the arm of the turntable is that of half a step ago, as the velocities are.
+TEST(Wall, that_turns_carries_a_ball_around_without_drawing_it_in) {
+  const DeckRun run = run_deck("<scene><fill>" + ball(10e-3, 0, 0.999e-3) +
+                               wall(R"(shape="disc" at="0 0 0 m" normal="0 0 1" radius="20 mm")") + "</fill><contact>" +
+                               penalty(R"(friction="5" restitution="0.3")", "1 kN/m") +
+                               R"(</contact><load><gravity set="ball"/><hold set="ball" axes="rx ry rz"/>
+    <turn set="wall" axis="z" velocity="30 rad/s" rise="100 ms"/></load><move><verlet time-step="10 us" until="0.6 s"/></move><watch><energy-ledger every="10"/></watch></scene>)");
+  EXPECT_NEAR(run.position[0].head<2>().norm(), 10e-3, 10e-6);  // 24 um nearer with the arm of now
+  EXPECT_LT(std::abs(run.energy("residual")), 1e-3 * run.energy("work"));
+}
+
+// Each of the balls that it touches has its share of a light lid, and the time step is made for that.
+TEST(Wall, that_is_light_does_not_dance_on_many_balls) {
+  const DeckRun run = run_deck(deck(
+      R"(<lattice set="ball" from="0 0 1 mm" count="4 4 1" radius="1 mm" density="2000 kg/m^3"/>)" +
+          wall(R"(shape="plane" at="0 0 0 m" normal="0 0 1")", "floor") +
+          wall(R"(shape="disc" at="3 3 2.05 mm" normal="0 0 -1" radius="9 mm" mass="20 mg")", "lid"),
+      R"(<penalty name="low" between="ball floor" stiffness="1 kN/m" restitution="0.3"/><penalty name="high" between="lid ball" stiffness="1 kN/m" restitution="0.3"/>)",
+      R"(<gravity/>)", "30 ms"));
+  EXPECT_EQ(run.failure, "");
+  EXPECT_NEAR(run.position.back()[2], 2e-3, 2e-6);
+  EXPECT_LT(std::abs(run.energy("residual")), 0.02 * run.energy("work"));
+}
+
+// Poured at the rim of a pipe, inside, on it and beside it: what flies in has the energy that it had.
+TEST(Wall, of_an_open_pipe_has_rims_that_push_nobody_away_at_once) {
+  for (const Real x : {2.9e-3, 3.2e-3, 3.8e-3, 4.5e-3, 4.99e-3}) {
+    const DeckRun run = run_deck(
+        deck(ball(x, 0, 1.05e-3) +
+                 wall(R"(shape="cylinder" at="0 0 -20 mm" to="0 0 0 mm" radius="4 mm" side="inside" ends="open")"),
+             penalty(R"(steps="60")", "10 kN/m"), velocity(0, 0, -0.1), "15 ms"));
+    EXPECT_EQ(run.failure, "");
+    EXPECT_NEAR(run.velocity[0].norm(), 0.1, 1e-3) << x;
+    EXPECT_LT(std::abs(run.energy("residual")), 0.01 * mass * 0.01) << x;
+  }
+}
+
+// A ball that runs round in a hollow of 90 facets keeps its energy, as in one that is round.
+TEST(Wall, of_a_round_hollow_of_facets_is_as_smooth_as_a_round_one) {
+  const Scratch scratch;
+  std::vector<std::array<Vec3, 3>> all;
+  for (int k = 0; k < 90; ++k) {
+    const auto at = [&](int n, Real z) { return Vec3(4 * std::cos(pi * n / 45), 4 * std::sin(pi * n / 45), z); };
+    all.push_back({at(k, -3), at((k + 1) % 90, -3), at((k + 1) % 90, 3)});
+    all.push_back({at(k, -3), at((k + 1) % 90, 3), at(k, 3)});
+  }
+  testing::write_text(scratch / "tube.stl", stl(all));
+  const std::string tube =
+      wall(fmt::format(R"(shape="surface" at="0 0 0 mm" unit="1 mm" file="{}")", (scratch / "tube.stl").string()));
+  const DeckRun run =
+      run_deck(deck(ball(0, 2.99e-3, 0) + tube, penalty(R"(steps="60")", "1 kN/m"), velocity(0.3, 0, 0), "200 ms"));
+  EXPECT_EQ(run.failure, "");
+  EXPECT_NEAR(run.velocity[0].norm(), 0.3, 3e-3);
+  EXPECT_LT(std::max(run.largest("energy", "residual"), -run.smallest("energy", "residual")), 0.01 * 0.5 * mass * 0.09);
+}
+
+// A wall is one body, and its mean itself.
+TEST(Wall, is_pulled_by_its_mean_as_by_itself) {
+  const DeckRun run = run_deck(deck(ball(0, 0, 1e-3) + plane, penalty("", "1 kN/m"),
+                                    R"(<hold set="ball"/><pull set="wall" axis="z" grip="mean" velocity="1 mm/s"/>)",
+                                    "10 ms", R"(<force-curve of="wall" axis="z" every="10"/>)"));
+  EXPECT_NEAR(run.curves.at("force").back().at("force"), 1e3 * 10e-6, 1e-3 * 1e-2);
+  EXPECT_GT(run.summary.at("time_step").get<Real>(), 1e-6);
+}
+
+TEST(Wall, without_a_mass_is_pushed_by_nothing_and_the_run_says_so) {
+  const Scratch scratch;
+  testing::write_text(scratch / "deck.xml",
+                      deck(ball(0, 0, 2e-3) + plane, penalty(), R"(<push set="wall" force="0 0 1 N"/>)", "1"));
+  Complaints complaints;
+  const auto read = read_deck((scratch / "deck.xml").string(), {}, complaints);
+  const auto scene = Scene::assemble(*read, Catalogue::open({}), complaints);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(complaints.warnings(), 1);
+}
+
+TEST(Wall, has_no_stress_and_is_left_out_where_nobody_names_it) {
+  const DeckRun run = run_deck(
+      "<scene><fill>" + ball(0, 0, 1e-3) + ball(1.9e-3, 0, 1e-3) + plane +
+      R"(</fill><bond><spring name="s" between="ball ball" young="1 GPa"/></bond><contact>)" + penalty() +
+      R"(</contact><move><verlet until="3"/></move><watch><sensor field="hydrostatic-stress" name="stress" every="1"/><sensor field="radius" reduce="min" name="radius" every="1"/><energy-ledger every="1"/></watch></scene>)");
+  EXPECT_EQ(run.curves.at("radius").back().at("min"), R);
+  EXPECT_TRUE(std::isfinite(run.curves.at("stress").back().at("mean")));
+}
+
 TEST(Wall, costs_nothing_where_there_is_none) {
   testing::Parts parts(
       deck(ball(0, 0, 0) + ball(3e-3, 0, 0), R"(<penalty name="c" between="ball ball" stiffness="1 MN/m"/>)", "", "1"));
