@@ -177,6 +177,7 @@ void Walls::reorder(std::span<const Index> row_of) {
 }
 
 bool Walls::is_whole(View<const Real> radius, Index elements) const {
+  if (!any()) return facets_.size() == 0;
   const auto column = [&](const char* name) { return walls_.column(name).view<Index>(); };
   const auto number = [&](const char* name) { return walls_.column(name).view<Real>(); };
   const auto element = column("element"), begin = column("begin"), end = column("end");
