@@ -211,7 +211,7 @@ class Colliding
 
   Real longest_step(const Domain& domain) const override { return shortest_collision(domain) / *steps; }
 
-  // The error of a collision falls with the square of the step: with 20 it is some thousandths.
+  // The error of a collision falls with the square of the step; with 20 a restitution of 0.5 is met within 0.02.
   std::string suspect(const Domain& domain, Real time_step) const override {
     const Real made = shortest_collision(domain) / time_step;
     return made > 15 ? ""
