@@ -108,8 +108,7 @@ std::vector<Near> walls_in_reach(const ContactLaw& law, const Domain& domain, Re
       }
     }
   std::vector<Near> pairs = domain.walls().near(place, reach, walls, poses);
-  for (Near& pair : pairs) pair.first = rows[static_cast<std::size_t>(pair.first)];
-  std::sort(pairs.begin(), pairs.end());
+  for (Near& pair : pairs) pair.first = rows[static_cast<std::size_t>(pair.first)];  // ascending, as sets are
   return pairs;
 }
 

@@ -253,9 +253,10 @@ void Contacts::search() {
   const auto searched_at = domain.elements().column("searched-at").view<Vec3>();
   for (Index row = 0; row < domain.size(); ++row) searched_at.set(row, position[row]);
   Walls& walls = domain.walls();
+  const bool turning = domain.elements().find("spin");  // else nobody asks how far off elements are
   for (Index k = 0; k < walls.size(); ++k) {
     const Pose pose = domain.pose(walls.element(k));
-    walls.note(k, pose, farthest_from(domain, pose.position));
+    walls.note(k, pose, turning ? farthest_from(domain, pose.position) : 0);
   }
   state_.breaks_searched = static_cast<Real>(domain.breaks().breaks.size());
   state_.searches += 1;

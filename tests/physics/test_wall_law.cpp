@@ -94,6 +94,23 @@ TEST(Wall, gives_back_the_share_of_speed_that_the_deck_says) {
   }
 }
 
+// With the steps that a deck has by itself, wherever within a step the ball touches first (docs/theory/contact.md).
+TEST(Wall, meets_the_restitution_within_some_hundredths_at_twenty_steps) {
+  for (const auto& [law, band] :
+       {std::pair(R"(<penalty name="c" between="ball wall" stiffness="1 MN/m" restitution="0.5"/>)", 0.022),
+        {R"(<hertz name="c" between="ball wall" young="10 GPa" restitution="0.5"/>)", 0.008}}) {
+    Real least = 1, most = 0;
+    for (int phase = 0; phase < 12; ++phase) {
+      const DeckRun run =
+          run_deck(deck(ball(0, 0, 1.01e-3 + phase * 0.3e-6) + plane, law, velocity(0, 0, -1), "0.4 ms"));
+      least = std::min(least, run.velocity[0][2]), most = std::max(most, run.velocity[0][2]);
+    }
+    EXPECT_NEAR(least, 0.5, band) << law;
+    EXPECT_NEAR(most, 0.5, band) << law;
+    EXPECT_GT(most - least, 1e-4) << "the first touch is not always at the same part of a step";
+  }
+}
+
 // Hertz: t = 2.9432 (15 m/(16 E* sqrt(R)))^(2/5) v^(-1/5) with E* = E/(1 - nu^2) and R* = R at a rigid plane.
 TEST(Wall, is_pressed_as_Hertz_says_of_a_rigid_plane) {
   const DeckRun run = run_deck(deck(
