@@ -44,6 +44,12 @@ class Calibration final : public Study {
                             .range = positive,
                             .doc = "Mean number of contacts of the samples' elements",
                             .fallback = "6.2"}};
+  Param<std::string> counted{this,
+                             {.name = "counted",
+                              .doc = "Whose contacts: of all elements, or of those farther than three mean radii from "
+                                     "walls",
+                              .fallback = "all",
+                              .choices = {"all", "bulk"}}};
   Param<Real> bond_poisson{this,
                            {.name = "bond-poisson",
                             .range = {0, 0.5},
@@ -53,7 +59,7 @@ class Calibration final : public Study {
                              {.name = "radius-ratios",
                               .doc = "Radius ratios at which stiffness and Poisson's ratio are measured, joined by "
                                      "commas",
-                              .fallback = "0.1, 0.15, 0.2, 0.3, 0.4, 0.55, 0.7, 0.9",
+                              .fallback = "0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7, 0.9",
                               .columns = {"1"}}};
   Param<std::string> section{this,
                              {.name = "section",
@@ -118,7 +124,7 @@ class Calibration final : public Study {
     plan.material = {*name, *young, *poisson, {}, {}};
     if (strength.given()) plan.material.strength = *strength;
     if (density.given()) plan.material.density = *density;
-    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *by};
+    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by};
     for (const auto& row : *ratios) plan.ratios.push_back(row[0]);
     plan.seeds = *seeds;
     plan.bond_poisson = *bond_poisson;

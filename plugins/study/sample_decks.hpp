@@ -14,6 +14,7 @@ struct SampleDecks {
   bool is_cylinder;
   std::int64_t elements;
   Real spread, coordination;
+  std::string counted;  ///< whose contacts: all or bulk
   std::string by;  ///< the mover: static or verlet
 };
 
@@ -47,14 +48,14 @@ inline std::string packing_deck(const SampleDecks& d) {
   <include file="size.xml"/>
   <fill>
     <free-filling   set="solid" {} count="${{elements}}" spread="{}" density="1000 kg/m^3"/>
-    <forced-filling set="solid" coordination="{}"/>
+    <forced-filling set="solid" coordination="{}" counted="{}"/>
     <relaxation     set="solid" overlap="1e-7"/>
   </fill>
   <move><verlet time-step="1 s" until="1"/></move>
   <watch><snapshot every="1"/></watch>
 </scene>
 )",
-      deck_head(false), shape, d.spread, d.coordination);
+      deck_head(false), shape, d.spread, d.coordination, d.counted);
 }
 
 /// A sample between two grips one element deep: stretched along an axis, its sides free.
