@@ -1,6 +1,7 @@
 #include "core/loop/breaking.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/domain/vocabulary.hpp"
 #include "core/loop/blame.hpp"
@@ -47,19 +48,46 @@ void Breaking::judge() {
 
 std::vector<Breaking::Fallen> Breaking::fallen() {
   std::vector<Fallen> all;
-  Fallen highest{nullptr, {Judged{}}};
   for (Failure* failure : state_.stage().failures) {
     if (state_.moment.step % *failure->every != 0) continue;
     fresh_.for_criterion(*failure);
     Verdict verdict = fresh_.judge(*failure);
     for (auto& [criterion, use] : state_.uses)
       if (criterion == failure) use.note(verdict.highest, state_.domain(), state_.moment);
-    if (verdict.fallen.empty()) continue;
-    if (verdict.highest.utilisation > highest.second.front().utilisation) highest = {failure, {verdict.highest}};
-    all.emplace_back(failure, std::move(verdict.fallen));
+    if (!verdict.fallen.empty()) all.emplace_back(failure, std::move(verdict.fallen));
   }
-  if (!all.empty() && state_.mover().breaks() == Breaks::highest) return {highest};
+  keep_highest(all, state_.mover().breaks());
   return all;
+}
+
+// Of equal ones those that come first in the deck and in their tables.
+void Breaking::keep_highest(std::vector<Fallen>& all, const Breaks& breaks) {
+  std::vector<Real> utilisations;
+  for (const Fallen& each : all)
+    for (const Judged& judged : each.second) utilisations.push_back(judged.utilisation);
+  if (utilisations.empty()) return;
+  std::sort(utilisations.begin(), utilisations.end(), std::greater<>());
+  const Real lowest = std::max(utilisations[std::min(breaks.at_once, utilisations.size()) - 1],
+                               utilisations.front() / (1 + breaks.within));
+  std::size_t left = std::min(breaks.at_once, utilisations.size());
+  // what lies above the lowest falls for certain, what equals it as far as there is room
+  left -= static_cast<std::size_t>(
+      std::count_if(utilisations.begin(), utilisations.end(), [&](Real u) { return u > lowest; }));
+  for (Fallen& each : all)
+    std::erase_if(each.second, [&](const Judged& judged) {
+      if (judged.utilisation > lowest) return false;
+      return judged.utilisation < lowest || left == 0 || left-- == 0;
+    });
+  std::erase_if(all, [](const Fallen& each) { return each.second.empty(); });
+}
+
+Real Breaking::highest() {
+  Real highest = 0;
+  for (Failure* failure : state_.stage().failures) {
+    fresh_.for_criterion(*failure);
+    highest = std::max(highest, fresh_.judge(*failure).highest.utilisation);
+  }
+  return highest;
 }
 
 void Breaking::fell(const Fallen& fallen) {

@@ -23,6 +23,8 @@ class Breaking {
   /// All criteria that are due see one configuration; only then do bonds break, each once, in the order of the deck's
   /// criteria.
   void judge();
+  /// The highest utilisation at the present state, whose sections laws have told; nothing breaks.
+  Real highest();
   /// Bonds that act.
   Real live() const { return live_; }
 
@@ -31,6 +33,7 @@ class Breaking {
   using Fallen = std::pair<Failure*, std::vector<Judged>>;
   void end(PairLaw& law, BondTable& table, std::span<const BondEvent> events);
   std::vector<Fallen> fallen();
+  static void keep_highest(std::vector<Fallen>& all, const Breaks& breaks);
   void fell(const Fallen& fallen);
   void fell_bond(Failure& failure, BondTable& table, Index row, Index element);
   void fell_element(Failure& failure, Index row);

@@ -69,6 +69,23 @@ bool Looks::offer_is_due() const {
   return false;
 }
 
+std::vector<Mark> Looks::awaited() const {
+  std::vector<Mark> marks;
+  for (const auto& of_watcher : state_.stage().marks) marks.insert(marks.end(), of_watcher.begin(), of_watcher.end());
+  const Until& end = *state_.stage().until;
+  if (const auto time = end.time()) marks.push_back({Mark::What::time, *time, "", {}});
+  if (const auto displacement = end.displacement()) marks.push_back({Mark::What::displacement, *displacement, "", {}});
+  return marks;
+}
+
+Real Looks::next_moment(Real until) const {
+  const Real now = state_.moment.time, step = until - now;
+  Real first = now + 1.5 * step;
+  for (const Mark& mark : awaited())
+    if (const auto time = mark.time(state_.moment, state_.held(), first)) first = std::min(first, *time);
+  return first <= until ? first : first < now + 1.5 * step ? now + 0.5 * (first - now) : until;
+}
+
 void Looks::tell_of_missed_moments(const std::string& instead) const {
   const auto& stages = state_.scene.stages;
   const auto later = stages.begin() + state_.moment.stage + 1;

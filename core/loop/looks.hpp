@@ -41,6 +41,9 @@ class Looks {
   void show_to(Watcher& watcher);
   /// Whether a watcher is due that reads what laws offer of each bond.
   bool offer_is_due() const;
+  /// The first moment up to `until`, after the present, that the end of the stage or an 'at' waits for; one that comes
+  /// soon after it is met half-way, as moments count as reached half a step before [s].
+  Real next_moment(Real until) const;
   /// Moments of 'at' that never came, told at the end of the last stage in which their watcher stands.
   void tell_of_missed_moments(const std::string& instead) const;
 
@@ -49,6 +52,7 @@ class Looks {
   void turn_of(std::size_t watcher);
   bool due(std::size_t watcher) const;
   void note_marks(std::size_t watcher);
+  std::vector<Mark> awaited() const;
   bool came(const Watcher& watcher, std::size_t mark) const;
   std::vector<WatcherState>& remembered() const { return state_.watchers[state_.stage_number()]; }
 

@@ -120,6 +120,22 @@ std::string Mark::why_never(std::span<const Constraint> constraints) const {
                      format_quantity(*reach, "m"));
 }
 
+std::optional<Real> Mark::time(const Moment& moment, std::span<const Constraint> constraints, Real until) const {
+  if (what == What::steps) return std::nullopt;
+  if (what == What::time) {
+    const Real time = moment.stage_start + value;
+    return time > moment.time && time <= until ? std::optional(time) : std::nullopt;
+  }
+  const auto has_come = [&](Real time) {
+    return driven_displacement(constraints, "", moment.stage_start, time) >= value;
+  };
+  if (has_come(moment.time) || !has_come(until)) return std::nullopt;
+  Real before = moment.time, after = until;
+  for (Real middle = 0.5 * (before + after); middle > before && middle < after; middle = 0.5 * (before + after))
+    (has_come(middle) ? after : before) = middle;
+  return after;
+}
+
 bool Mark::reached(const Moment& moment, std::span<const Constraint> constraints) const {
   const Real time = moment.time - moment.stage_start;
   switch (what) {

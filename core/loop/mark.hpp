@@ -38,6 +38,8 @@ struct Mark {
   static std::vector<Mark> list(const std::string& text, const std::string& attribute, const Location& at,
                                 const Scope& scope, Complaints& complaints);
   bool reached(const Moment& moment, std::span<const Constraint> constraints) const;
+  /// When it comes, if that is after the present and up to `until` [s]; of a number of steps nobody knows.
+  std::optional<Real> time(const Moment& moment, std::span<const Constraint> constraints, Real until) const;
   std::string si() const;     ///< "0.0003 m", as any deck may give it
   std::string words() const;  ///< what is reached: "0.3 mm of displacement", "5000 steps"
   /// Why it can never come under these constraints, or "".

@@ -172,6 +172,16 @@ void Run::evaluate(bool settle) {
   forces_.evaluate(settle, offering);
 }
 
+Real Run::utilisation() {
+  if (state_.stage().failures.empty()) return 0;
+  fresh_.begin_step();
+  fresh_.outdate();
+  forces_.evaluate(false, offered_.is_read());
+  return breaking_.highest();
+}
+
+Real Run::next_moment(Real until) const { return looks_.next_moment(until); }
+
 // So that what summary.json says of a failed run's energies stands for one moment, and its quality knows of them.
 void Run::fail(const std::exception& failure) {
   if (state_.phase != RunState::Phase::within_step) {

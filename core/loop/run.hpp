@@ -57,6 +57,8 @@ class Run final : private Workings {
   std::span<const ActingLaw> laws() const override { return state_.laws; }
   Log& log() override { return options_.log; }
   void evaluate(bool settle) override;
+  Real utilisation() override;
+  Real next_moment(Real until) const override;
 
   RunOptions options_;
   RunState state_;

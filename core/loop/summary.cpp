@@ -106,6 +106,7 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   json["loop_seconds"] = figures.loop_seconds;
   json["bond_updates"] = figures.bond_updates;
   json["bond_updates_per_second"] = figures.loop_seconds > 0 ? figures.bond_updates / figures.loop_seconds : 0;
+  for (const MoverFigure& figure : state.mover().figures()) json["mover"][figure.name] = figure.value;
   Terms terms;
   try {
     balance.energies(terms);

@@ -1,6 +1,7 @@
 #pragma once
 // Section <move>: advances the scene.
 
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,15 +22,27 @@ class Workings {
   virtual std::vector<Constraint>& constraints() = 0;
   /// Sums of all forces and torques into the fields `force` and `torque`.
   virtual void evaluate(bool settle) = 0;
+  /// The highest utilisation that the criteria of the stage find at the present state; 0 where there are none. Nothing
+  /// breaks.
+  virtual Real utilisation() = 0;
+  /// The first moment up to this one, after the present, for which the stage or one of its watchers waits [s].
+  virtual Real next_moment(Real until) const = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<PairLaw*, BondTable*>> laws() const = 0;
   virtual Log& log() = 0;
 };
 
-/// Of what reaches its threshold at one moment.
-enum class Breaks {
-  all,      ///< everything falls at once: inertia decides what comes of it
-  highest,  ///< what has the highest utilisation alone: the others are judged anew without it
+/// What falls, of all that reaches its threshold at one moment: everything, where inertia decides what comes of it, or
+/// what has the highest utilisation, and the others are judged anew without it.
+struct Breaks {
+  std::size_t at_once = std::numeric_limits<std::size_t>::max();  ///< so many at most, the highest first
+  Real within = std::numeric_limits<Real>::infinity();  ///< share by which the highest may exceed another that falls
+};
+
+/// A number that a mover has to tell of a run, for its summary.
+struct MoverFigure {
+  std::string name;
+  Real value;
 };
 
 class Mover : public Plugin {
@@ -55,7 +68,9 @@ class Mover : public Plugin {
   virtual void step(Workings& workings) = 0;
   /// Brings velocities and spins to the end of the step.
   virtual void complete(Workings&) {}
-  virtual Breaks breaks() const { return Breaks::all; }
+  virtual Breaks breaks() const { return {}; }
+  /// What the run has taken, by the mover's own measures.
+  virtual std::vector<MoverFigure> figures() const { return {}; }
   /// Whether bonds act in single precision, where their law can.
   virtual bool in_single() const { return false; }
   /// Energy by which the balance swings at the present state although nothing is wrong: what the scheme keeps is not

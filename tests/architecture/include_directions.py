@@ -15,17 +15,18 @@ ALLOWED = {
     "bonds": {"base", "domain", "mechanics"},
     "plugin": {"base", "deck", "domain", "mechanics", "bonds"},
     "dynamics": {"base", "domain", "mechanics", "bonds", "plugin"},
+    "statics": {"base", "domain", "mechanics", "bonds", "plugin"},
     "loop": {"base", "deck", "domain", "mechanics", "plugin", "io"},
     "workbench": {"base", "deck", "domain", "mechanics", "plugin", "loop", "io", "packing"},
     "plugins/fill": PLUGIN_BASE | {"packing", "io"},
     "plugins/watch": PLUGIN_BASE | {"io"},
     **{f"plugins/{kind}": PLUGIN_BASE for kind in ("bond", "contact", "load", "fail", "derive", "study")},
-    "plugins/move": PLUGIN_BASE | {"dynamics"},
+    "plugins/move": PLUGIN_BASE | {"dynamics", "statics"},
 }
 # Each of these libraries is known to one part only.
 OWNERS = {"tinyxml2.h": "deck", "muParser.h": "deck", "hdf5.h": "io", "boost/dll/": "plugin",
           "udunits2.h": "base", "boost/geometry": "domain", "CLI/": "workbench", "spdlog/": "workbench",
-          "png.h": "workbench"}
+          "png.h": "workbench", "dmumps_c.h": "statics"}
 
 
 def part_of(path):

@@ -103,6 +103,8 @@ class Parts : private Workings {
   Moment& moment() override { return state.moment; }
   std::vector<Constraint>& constraints() override { return state.held(); }
   void evaluate(bool settle) override { forces.evaluate(settle, false); }
+  Real utilisation() override { return 0; }
+  Real next_moment(Real until) const override { return until; }
   std::span<const ActingLaw> laws() const override { return state.laws; }
   Log& log() override { return options.log; }
 };

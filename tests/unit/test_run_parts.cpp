@@ -114,7 +114,7 @@ class OneByOne final : public Mover {
   void choose_rotations(bool) override {}
   void prepare(Workings& w, bool) override { w.evaluate(true); }
   void step(Workings& w) override { w.evaluate(true), ++w.moment().step; }
-  Breaks breaks() const override { return Breaks::highest; }
+  Breaks breaks() const override { return {1, 0}; }
 };
 
 /// Judges elements, as it is told by row.

@@ -1,0 +1,62 @@
+#pragma once
+// Equilibrium by Newton's iteration.        docs/theory/statics.md
+
+#include <string>
+
+#include "core/statics/static_model.hpp"
+#include "core/statics/supported_system.hpp"
+
+namespace beadwork {
+
+/// Why an iteration ended.
+enum class Reason { converged, too_many_iterations, grows, no_number, singular, linear_solver };
+/// In words, for the log.
+const char* in_words(Reason reason);
+
+struct NewtonLimits {
+  Real tolerance = 1e-6;  ///< of residual, displacement and energy, each over what this increment does
+  int iterations = 20;
+  Slope slope = Slope::consistent;
+};
+
+struct NewtonResult {
+  Reason reason = Reason::converged;
+  int iterations = 0;
+  Real residual = 0;   ///< what is unbalanced, over what the increment does
+  Real reference = 0;  ///< what the increment does [N]
+  Real released = 0;   ///< work of unbalanced forces on the way to the equilibrium [J]
+  int weakest = -1;    ///< unknown that nothing holds, of a singular system
+  bool converged() const { return reason == Reason::converged; }
+};
+
+/// What solving has cost so far.
+struct NewtonCosts {
+  std::int64_t iterations = 0, factors = 0, solves = 0;
+  Real factor_seconds = 0, stiffness_seconds = 0, force_seconds = 0, solve_seconds = 0;
+};
+
+class Newton {
+ public:
+  Newton(StaticModel& model, SupportedSystem& system, NewtonLimits limits)
+      : model_(model), system_(system), limits_(limits) {}
+
+  /// Brings the model from its last accepted state to the equilibrium at this time; the trial state is left as it
+  /// stands at the end.
+  NewtonResult go(Real time);
+  /// The factor is of a state before, which may be too far away: the next iteration finds its own.
+  void forget_factor() { stale_ = true; }
+  const NewtonCosts& costs() const { return costs_; }
+
+ private:
+  Factored factor(Slope slope);
+  bool solve(const Vector& forces, const Lacking& lacking, Vector& du);
+  const Vector& forces();
+
+  StaticModel& model_;
+  SupportedSystem& system_;
+  NewtonLimits limits_;
+  NewtonCosts costs_;
+  bool stale_ = true;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,144 @@
+#include "core/statics/scene_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/mechanics/rotation.hpp"
+
+namespace beadwork {
+
+namespace {
+
+// A turn of any length: the series is good for 2 rad.
+Quat turn_by(const Vec3& turn) {
+  if (turn.squaredNorm() <= 1) return increment<Real>(turn);
+  const Quat half = turn_by(0.5 * turn);
+  return half * half;
+}
+
+}  // namespace
+
+SceneModel::SceneModel(Workings& workings, const StaticRows& rows)
+    : w_(workings), rows_(rows), count_(workings.domain().size()), accepted_time_(workings.moment().time) {
+  Index spheres = 0;
+  Real sum = 0;
+  for (Index i = 0; i < count_; ++i) {
+    extent_ = std::max(extent_, rows_.place[i].cwiseAbs().maxCoeff());
+    sum += rows_.radius[i];
+    spheres += rows_.radius[i] > 0 ? 1 : 0;
+  }
+  if (spheres > 0) length_ = sum / spheres;
+  for (const Constraint& c : w_.constraints()) sets_.push_back(w_.domain().set(c.set));
+  note_accepted();
+}
+
+void SceneModel::note_accepted() {
+  places_.resize(static_cast<std::size_t>(count_));
+  for (Index i = 0; i < count_; ++i) places_[static_cast<std::size_t>(i)] = rows_.place[i];
+  accepted_time_ = w_.moment().time;
+  if (!turning()) return;
+  orientations_.resize(static_cast<std::size_t>(count_));
+  for (Index i = 0; i < count_; ++i) orientations_[static_cast<std::size_t>(i)] = rows_.orientation[i];
+  turned_.assign(static_cast<std::size_t>(count_), Vec3::Zero());
+}
+
+void SceneModel::begin_trial(Real time) { w_.moment().time = time; }
+
+void SceneModel::give_up() {
+  w_.moment().time = accepted_time_;
+  for (Index i = 0; i < count_; ++i) rows_.place.set(i, places_[static_cast<std::size_t>(i)]);
+  if (!turning()) return;
+  for (Index i = 0; i < count_; ++i) rows_.orientation.set(i, orientations_[static_cast<std::size_t>(i)]);
+  turned_.assign(static_cast<std::size_t>(count_), Vec3::Zero());
+}
+
+void SceneModel::move(const Vector& by) {
+  const int d = per_element();
+  const Real dt = w_.moment().time - accepted_time_;
+  each_shared(
+      count_,
+      [&](Index i) {
+        const auto at = static_cast<std::size_t>(i);
+        rows_.place.add(i, by.segment<3>(d * i));
+        if (dt > 0) rows_.velocity.set(i, (rows_.place[i] - places_[at]) / dt);
+        if (d == 3) return;
+        const Vec3 turn = by.segment<3>(d * i + 3) / length_;
+        turned_[at] += turn;
+        rows_.orientation.set(i, renormalise<Real>(turn_by(turn) * rows_.orientation[i]));
+        if (dt > 0) rows_.spin.set(i, turned_[at] / dt);
+      },
+      1024);
+}
+
+const Vector& SceneModel::forces() {
+  w_.evaluate(false);
+  forces_.resize(per_element() * count_);
+  for (Index i = 0; i < count_; ++i) {
+    forces_.segment<3>(unknown(i, 0)) = rows_.force[i];
+    if (turning()) forces_.segment<3>(unknown(i, 3)) = rows_.torque[i] / length_;
+  }
+  return forces_;
+}
+
+// Places are known to the last digit of the largest of them, and so are elongations.
+Real SceneModel::noise() const {
+  return 4 * std::numeric_limits<Real>::epsilon() * stiffness_.largest() * std::max(extent_, length_) *
+         std::sqrt(static_cast<Real>(count_));
+}
+
+const SymmetricMatrix& SceneModel::stiffness(Slope slope) {
+  constexpr Index batch = 1024;  // of bonds, whose stiffness the threads find before it is added in their order
+  std::vector<Matrix12> found(batch);
+  stiffness_.clear();
+  const Domain& domain = w_.domain();
+  for (const auto& [law, table] : w_.laws())
+    for (const Chunk& chunk : table->chunks())
+      for (Index begin = chunk.begin; begin < chunk.live_end; begin += batch) {
+        const Index count = std::min(batch, chunk.live_end - begin);
+        each_shared(
+            count,
+            [&, law = law, table = table](Index k) {
+              found[static_cast<std::size_t>(k)] = law->tangent(domain, *table, begin + k, slope);
+            },
+            64);
+        for (Index k = 0; k < count; ++k)
+          stiffness_.add(table->first()[begin + k], table->second()[begin + k], found[static_cast<std::size_t>(k)]);
+      }
+  stiffness_.hold_idle();
+  return stiffness_.matrix();
+}
+
+std::vector<const BondTable*> SceneModel::tables() const {
+  std::vector<const BondTable*> tables;
+  for (const auto& [law, table] : w_.laws()) tables.push_back(table);
+  return tables;
+}
+
+// All that there are, broken or not: so that the order of elimination does not depend on what has broken when.
+std::vector<std::pair<Index, Index>> SceneModel::pairs() const {
+  std::vector<std::pair<Index, Index>> all;
+  for (const BondTable* table : tables())
+    for (Index b = 0; b < table->size(); ++b) all.emplace_back(std::minmax(table->first()[b], table->second()[b]));
+  return all;
+}
+
+bool SceneModel::has_other_pairs() const {
+  if (std::none_of(w_.laws().begin(), w_.laws().end(), [](const auto& l) { return l.second->is_of_contacts(); }))
+    return false;
+  return pairs() != pairs_;
+}
+
+void SceneModel::take_pairs() {
+  pairs_ = pairs();
+  stiffness_ = StiffnessMatrix(count_, pairs_, turning() ? length_ : 0);
+}
+
+std::string SceneModel::axis_of(int unknown) const {
+  const int axis = unknown % per_element();
+  return fmt::format("{} {}", axis < 3 ? "along" : "about", "xyz"[axis % 3]);
+}
+
+}  // namespace beadwork

@@ -1,0 +1,80 @@
+#pragma once
+// The scene of a run as static solvers see it: its laws, its loads and what is prescribed, through what the loop lends.
+//                                                                                             docs/theory/statics.md
+
+#include "core/domain/free_bodies.hpp"
+#include "core/plugin/kinds.hpp"
+#include "core/statics/static_model.hpp"
+#include "core/statics/stiffness_matrix.hpp"
+
+namespace beadwork {
+
+/// What a static mover moves.
+struct StaticRows {
+  View<Vec3> place, velocity, force;
+  View<Quat> orientation;  ///< with spin and torque: null where nothing turns
+  View<Vec3> spin, torque;
+  View<const Real> radius;
+};
+
+class SceneModel final : public StaticModel {
+ public:
+  SceneModel(Workings& workings, const StaticRows& rows);
+
+  const Supports& supports() const override { return supports_; }
+  void begin_trial(Real time) override;
+  Lacking lacking() const override;
+  void move(const Vector& by) override;
+  const Vector& forces() override;
+  const SymmetricMatrix& stiffness(Slope slope) override;
+  Real noise() const override;
+  void give_up() override;
+
+  /// The trial state is accepted: laws note what they keep, what is prescribed tells its forces and its work.
+  void accept();
+  /// Forces at the state as it stands are those of the supports: where a run or a stage begins.
+  void react(bool works);
+  /// Supports as they follow from what hangs together now. Free bodies are held where they are if `pin`, else told.
+  std::vector<FreeBody> support(bool pin);
+  /// Elements that nothing binds, which are held where they are.
+  Index loose() const { return loose_; }
+  /// The pairs that bonds and contacts make have changed since the stiffness got its pattern.
+  bool has_other_pairs() const;
+  void take_pairs();
+  Index element_of(int unknown) const { return unknown / per_element(); }
+  /// In words, what an unknown is: "along x", "about z".
+  std::string axis_of(int unknown) const;
+
+ private:
+  int per_element() const { return turning() ? 6 : 3; }
+  bool turning() const { return static_cast<bool>(rows_.torque); }
+  int unknown(Index element, int axis) const { return per_element() * element + axis; }
+  Real unit(int axis) const { return axis < 3 ? 1 : length_; }
+  void note_accepted();
+  void fix_prescribed();
+  void fix_loose();
+  void pin(const FreeBody& body);
+  void pin_means(const std::vector<FreeBody>& without_means);
+  void lacking_body(const Constraint& c, std::size_t number, Vector& lack) const;
+  Real gone(Index row, int axis) const;
+  void react(Constraint& c, const Set& set, bool works);
+  std::vector<const BondTable*> tables() const;
+  std::vector<std::pair<Index, Index>> pairs() const;
+
+  Workings& w_;
+  StaticRows rows_;
+  Index count_;
+  Real length_ = 1;  ///< of the unknown of a turn of 1 rad: the mean radius [m]
+  Real extent_ = 0;  ///< largest coordinate [m]
+  Real accepted_time_ = 0;
+  std::vector<Vec3> places_, turned_;  ///< of the accepted state; turned since [rad]
+  std::vector<Quat> orientations_;
+  std::vector<Set> sets_;  ///< of the constraints, without what has broken loose of a mean
+  Supports supports_;
+  StiffnessMatrix stiffness_;
+  std::vector<std::pair<Index, Index>> pairs_;
+  Vector forces_;
+  Index loose_ = 0;
+};
+
+}  // namespace beadwork

@@ -1,0 +1,209 @@
+// What holds the elements of a scene: loads, and where nothing does, the mover itself.
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "core/domain/bodies.hpp"
+#include "core/mechanics/rigid_turn.hpp"
+#include "core/statics/scene_model.hpp"
+
+namespace beadwork {
+
+namespace {
+
+// The unknown among these that feels most of the motions that are left; takes away of them what it feels.
+int holding_most(const std::vector<int>& unknowns, Eigen::MatrixXd& felt_by_unknown, const auto& row_of) {
+  int best = -1;
+  Real most = -1;
+  for (const int k : unknowns)
+    if (const Real felt = felt_by_unknown.row(row_of(k)).squaredNorm(); felt > most * (1 + 1e-9)) most = felt, best = k;
+  const Eigen::VectorXd motion = felt_by_unknown.row(row_of(best)).transpose();
+  if (motion.squaredNorm() > 0)
+    felt_by_unknown -= (felt_by_unknown * motion) * motion.transpose() / motion.squaredNorm();
+  return best;
+}
+
+template <class F>
+Real mean(const Set& set, const F& f) {
+  Real sum = 0;
+  for (const Index row : set) sum += f(row);
+  return sum / static_cast<Real>(set.size());
+}
+
+}  // namespace
+
+std::vector<FreeBody> SceneModel::support(bool pin_free) {
+  const auto unknowns = static_cast<std::size_t>(per_element()) * static_cast<std::size_t>(count_);
+  supports_ = Supports();
+  supports_.fixed.assign(unknowns, 0);
+  const std::vector<Index> body = bodies(w_.domain(), tables(), w_.moment().step);
+  sets_.clear();
+  for (const Constraint& c : w_.constraints())
+    sets_.push_back(c.grip == Grip::mean ? without_debris(w_.domain().set(c.set), body) : w_.domain().set(c.set));
+  fix_prescribed();
+  fix_loose();
+  std::vector<FreeBody> free = free_bodies(w_.domain(), tables(), w_.constraints(), turning(), w_.moment().step);
+  if (pin_free)
+    for (const FreeBody& each : free) pin(each);
+  std::vector<Constraint> without_means;
+  for (const Constraint& c : w_.constraints())
+    if (c.grip == Grip::each) without_means.push_back(c);
+  if (without_means.size() < w_.constraints().size())
+    pin_means(free_bodies(w_.domain(), tables(), without_means, turning(), w_.moment().step));
+  return free;
+}
+
+void SceneModel::fix_prescribed() {
+  for (std::size_t n = 0; n < sets_.size(); ++n) {
+    const Constraint& c = w_.constraints()[n];
+    if (c.grip == Grip::mean) {
+      if (c.axis >= per_element() || sets_[n].empty()) continue;
+      Supports::Mean mean;
+      for (const Index row : sets_[n]) mean.unknowns.push_back(unknown(row, c.axis));
+      supports_.means.push_back(std::move(mean));
+      continue;
+    }
+    for (int axis = 0; axis < per_element(); ++axis)
+      if (c.prescribes() >> axis & 1)
+        for (const Index row : sets_[n]) supports_.fixed[static_cast<std::size_t>(unknown(row, axis))] = 1;
+  }
+}
+
+// Elements that no bond holds and no contact touches stay where they are.
+void SceneModel::fix_loose() {
+  std::vector<char> bound(static_cast<std::size_t>(count_), 0);
+  for (const BondTable* table : tables())
+    for (const Chunk& chunk : table->chunks())
+      for (Index b = chunk.begin; b < chunk.live_end; ++b)
+        for (const Index end : {table->first()[b], table->second()[b]}) bound[static_cast<std::size_t>(end)] = 1;
+  loose_ = 0;
+  for (Index i = 0; i < count_; ++i) {
+    if (bound[static_cast<std::size_t>(i)]) continue;
+    ++loose_;
+    for (int axis = 0; axis < per_element(); ++axis) supports_.fixed[static_cast<std::size_t>(unknown(i, axis))] = 1;
+  }
+}
+
+// As few unknowns as it has free motions, so that nothing pulls at them.
+void SceneModel::pin(const FreeBody& body) {
+  const int d = per_element();
+  Eigen::MatrixXd felt(d * static_cast<Eigen::Index>(body.members.size()), body.modes.cols());
+  std::vector<int> rows(static_cast<std::size_t>(felt.rows()));
+  for (std::size_t m = 0; m < body.members.size(); ++m) {
+    const auto at = d * static_cast<Eigen::Index>(m);
+    felt.middleRows(at, 3) = rigid_at(rows_.place[body.members[m]] - body.centre, body.length) * body.modes;
+    if (d == 6) felt.middleRows(at + 3, 3) = length_ / body.length * body.modes.bottomRows<3>();
+    for (int axis = 0; axis < d; ++axis) rows[static_cast<std::size_t>(at + axis)] = static_cast<int>(at) + axis;
+  }
+  for (Eigen::Index k = 0; k < body.modes.cols(); ++k) {
+    const int row = holding_most(rows, felt, [](int r) { return r; });
+    supports_.fixed[static_cast<std::size_t>(unknown(body.members[static_cast<std::size_t>(row / d)], row % d))] = 1;
+  }
+}
+
+// A spring in each mean, at the unknown where it holds most of what no other support does.
+void SceneModel::pin_means(const std::vector<FreeBody>& without_means) {
+  const int d = per_element();
+  Eigen::Index modes = 0;
+  for (const FreeBody& body : without_means) modes += body.modes.cols();
+  Eigen::MatrixXd felt = Eigen::MatrixXd::Zero(d * count_, std::max<Eigen::Index>(modes, 1));
+  Eigen::Index column = 0;
+  for (const FreeBody& body : without_means) {
+    for (const Index row : body.members) {
+      felt.block(unknown(row, 0), column, 3, body.modes.cols()) =
+          rigid_at(rows_.place[row] - body.centre, body.length) * body.modes;
+      if (d == 6) felt.block(unknown(row, 3), column, 3, body.modes.cols()) = body.modes.bottomRows<3>();
+    }
+    column += body.modes.cols();
+  }
+  std::erase_if(supports_.means, [&](Supports::Mean& mean) {
+    std::vector<int> free;
+    for (const int k : mean.unknowns)
+      if (!supports_.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
+    if (free.empty()) return true;
+    mean.pinned = holding_most(free, felt, [](int k) { return k; });
+    return false;
+  });
+}
+
+Lacking SceneModel::lacking() const {
+  Lacking lack{Vector::Zero(per_element() * count_), Vector::Zero(static_cast<Eigen::Index>(supports_.means.size()))};
+  Eigen::Index means = 0;
+  for (std::size_t n = 0; n < sets_.size(); ++n) {
+    const Constraint& c = w_.constraints()[n];
+    if (c.body) {
+      lacking_body(c, n, lack.fixed);
+      continue;
+    }
+    if (c.axis >= per_element() || sets_[n].empty()) continue;
+    const Real moved = c.at(w_.moment().time).displacement - c.at(accepted_time_).displacement;
+    const auto left = [&](Index row) { return unit(c.axis) * (moved - gone(row, c.axis)); };
+    if (c.grip == Grip::mean)
+      lack.means[means++] = mean(sets_[n], left);
+    else
+      for (const Index row : sets_[n]) lack.fixed[unknown(row, c.axis)] = left(row);
+  }
+  return lack;
+}
+
+// Places follow from where the turn began, turns from where the trial did.
+void SceneModel::lacking_body(const Constraint& c, std::size_t number, Vector& lack) const {
+  const Circles circles(c.axis - 3, c.body->about);
+  const auto from = w_.domain().elements().column(c.body->from).view<Vec3>();
+  const Real angle = c.at(w_.moment().time).displacement;
+  const Turned by = turned(angle);
+  const Vec3 turn = (angle - c.at(accepted_time_).displacement) * Vec3::Unit(circles.axis());
+  for (const Index row : sets_[number]) {
+    const Vec3 left = circles.place(from[row], by) - rows_.place[row];
+    for (int axis = 0; axis < 3; ++axis)
+      if (c.prescribes() >> axis & 1) lack[unknown(row, axis)] = left[axis];
+    if (turning()) lack.segment<3>(unknown(row, 3)) = length_ * (turn - turned_[static_cast<std::size_t>(row)]);
+  }
+}
+
+// What an element has gone or turned since the trial began.
+Real SceneModel::gone(Index row, int axis) const {
+  const auto at = static_cast<std::size_t>(row);
+  return axis < 3 ? rows_.place.at(row, axis) - places_[at][axis] : turned_[at][axis - 3];
+}
+
+void SceneModel::react(bool works) {
+  for (std::size_t n = 0; n < sets_.size(); ++n) react(w_.constraints()[n], sets_[n], works);
+}
+
+// The force that keeps it: what the others do to what it holds, the other way round. The work of a small step of
+// equilibria is the trapezoid.
+void SceneModel::react(Constraint& c, const Set& set, bool works) {
+  if (c.axis >= 3 && !c.body && !turning()) return;
+  const auto load = c.axis < 3 ? rows_.force : rows_.torque;
+  Real reaction = 0;
+  Vec3 sum = Vec3::Zero();
+  for (const Index row : set) {
+    if (!c.body) {
+      reaction -= load.at(row, c.axis % 3);
+      continue;
+    }
+    const Circles circles(c.axis - 3, c.body->about);
+    Vec3 force = -rows_.force[row];
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(c.prescribes() >> axis & 1)) force[axis] = 0;
+    sum += force;
+    reaction += circles.torque(circles.arm(rows_.place[row]), force);
+    if (turning()) reaction -= rows_.torque.at(row, circles.axis());
+  }
+  if (works)
+    c.work += 0.5 * (c.reaction + reaction) * (c.at(w_.moment().time).displacement - c.at(accepted_time_).displacement);
+  c.reaction = reaction;
+  if (c.body)
+    for (std::size_t axis = 0; axis < 3; ++axis) c.body->forces[axis] = sum[static_cast<int>(axis)];
+}
+
+// A step is complete: what broke before it does its work no more.
+void SceneModel::accept() {
+  w_.evaluate(true);
+  react(true);
+  note_accepted();
+}
+
+}  // namespace beadwork

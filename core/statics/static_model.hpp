@@ -1,0 +1,29 @@
+#pragma once
+// What a static solver asks of a scene, and what it tells it: all solvers share it, and know no more.
+
+#include "core/mechanics/stiffness.hpp"
+#include "core/statics/supports.hpp"
+
+namespace beadwork {
+
+class StaticModel {
+ public:
+  virtual ~StaticModel() = default;
+  virtual const Supports& supports() const = 0;
+  /// A trial begins, from the last accepted state: loads and what is prescribed are those of this time.
+  virtual void begin_trial(Real time) = 0;
+  /// What the supports have to move until the trial state is where it is prescribed to be.
+  virtual Lacking lacking() const = 0;
+  /// Moves the trial state: turns are composed, never added.
+  virtual void move(const Vector& by) = 0;
+  /// Forces at the trial state that nothing balances, and of supports what they have to take [N].
+  virtual const Vector& forces() = 0;
+  /// K at the trial state: of the forces the slope, less than nothing [N/m].
+  virtual const SymmetricMatrix& stiffness(Slope slope) = 0;
+  /// Forces smaller than this are round-off [N].
+  virtual Real noise() const = 0;
+  /// Back to the last accepted state.
+  virtual void give_up() = 0;
+};
+
+}  // namespace beadwork

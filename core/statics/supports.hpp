@@ -1,0 +1,37 @@
+#pragma once
+// What is prescribed of the unknowns: some are fixed, of some the mean is.
+
+#include <vector>
+
+#include "core/statics/symmetric_matrix.hpp"
+
+namespace beadwork {
+
+struct Supports {
+  struct Mean {
+    std::vector<int> unknowns;
+    int pinned = -1;  ///< one of them, which is held by a spring while the others are eliminated
+  };
+  std::vector<char> fixed;  ///< by unknown: 1 where it is prescribed, or held because nothing resists it
+  std::vector<Mean> means;
+
+  bool is_fixed(int unknown) const { return fixed[static_cast<std::size_t>(unknown)] != 0; }
+  /// C x: the mean of all its unknowns.
+  static Real mean_of(const Mean& mean, const Vector& x);
+  /// x + C^T value, where it is free.
+  void add_mean(const Mean& mean, Real value, Vector& x) const;
+  /// What of the forces no support takes: f - C^T lambda where it is free, with the lambda that leaves least.
+  Vector unbalanced(const Vector& forces) const;
+};
+
+/// What they still have to move.
+struct Lacking {
+  Vector fixed;  ///< by unknown; of those that are fixed alone it counts
+  Vector means;  ///< by mean
+
+  bool anything() const {
+    return fixed.lpNorm<Eigen::Infinity>() > 0 || (means.size() > 0 && means.lpNorm<Eigen::Infinity>() > 0);
+  }
+};
+
+}  // namespace beadwork
