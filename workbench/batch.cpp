@@ -7,9 +7,9 @@
 #include <map>
 
 #include "core/base/failure.hpp"
-#include "core/base/processors.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
+#include "core/loop/local_jobs.hpp"
 #include "workbench/terminal.hpp"
 
 namespace beadwork {
@@ -27,20 +27,10 @@ struct BatchArguments {
   bool keep_going = false;
 };
 
-/// How the processors are shared out: runs at once, threads of each.
-struct Shares {
-  int jobs, threads;
-};
-
 Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
-  if (arguments.engine == "slurm")
-    return {arguments.jobs, std::max(1, arguments.threads)};  // processors of other machines
-  const int allowed = allowed_processors();
-  Shares shares{arguments.jobs, arguments.threads};
-  if (shares.jobs == 0) shares.jobs = std::max(1, allowed / std::max(1, shares.threads));
-  if (runs > 0) shares.jobs = static_cast<int>(std::min<std::size_t>(runs, static_cast<std::size_t>(shares.jobs)));
-  if (shares.threads == 0) shares.threads = std::max(1, allowed / shares.jobs);
-  return shares;
+  const Shares wanted{arguments.jobs, arguments.threads};
+  if (arguments.engine == "slurm") return {wanted.jobs, std::max(1, wanted.threads)};  // processors of other machines
+  return wanted.among(runs);
 }
 
 BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& variations,
@@ -116,7 +106,7 @@ int batch(const BatchArguments& arguments) {
   };
   const std::size_t done = count([](const BatchRun& run) { return run.done; });
   const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
-  BatchFolder folder(arguments.out);
+  OwnFolder folder(arguments.out, Manifest::Of::batch);
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
   for (BatchRun& run : runs) write_command(run, shares.threads, arguments.words);
   say("{} runs, {} of them done already{}\n", runs.size(), done, refused ? fmt::format(", {} refused", refused) : "");

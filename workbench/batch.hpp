@@ -2,12 +2,11 @@
 // Many runs of one deck, each with other values of its parameters and a folder of its own.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/io/manifest.hpp"
+#include "core/io/own_folder.hpp"
 #include "core/loop/same_deck.hpp"
 #include "workbench/verbs.hpp"
 
@@ -68,22 +67,6 @@ std::string batch_table(const std::vector<Variation>& variations, const std::vec
 /// The code that tells most: a failed run outranks an interrupted one.
 int worst(const std::vector<BatchRun>& runs);
 
-/// The folder of a batch: one batch at a time writes there, and only over what a batch has made.
-class BatchFolder {
- public:
-  /// Makes the folder, or takes one that is there. DeckFailure if it can be none, or if a batch is running there.
-  explicit BatchFolder(const std::filesystem::path& root);
-  /// Where a file stands that is to be written now. DeckFailure if somebody else's is there.
-  std::filesystem::path claim(const std::string& name);
-
- private:
-  std::filesystem::path root_;
-  Descriptor lock_;
-  std::optional<Manifest> list_;  ///< once there is one
-};
-/// The process that has locked a file or folder, where the system tells: "process 4711", or "another process".
-std::string holder_of(const std::filesystem::path& path);
-
 /// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites `table`
 /// whenever one ends. Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when
 /// this process is killed. A run that another process is still at is waited for.
@@ -92,11 +75,6 @@ void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variat
 
 /// Writes a script for Slurm and submits it; `at_once` = 0 leaves that to Slurm. MachineFailure, naming the script, if
 /// there is no sbatch here.
-void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, BatchFolder& folder);
-
-/// Starts a program that is asked to stop (SIGTERM) when this process ends, however it ends. -1 if it cannot be
-/// started. `also`: a descriptor that it inherits, as number `inherited_descriptor`; -1 for none.
-pid_t start_program(const std::vector<std::string>& command, int also = -1);
-inline constexpr int inherited_descriptor = 3;
+void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, OwnFolder& folder);
 
 }  // namespace beadwork

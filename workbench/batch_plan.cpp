@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 #include "core/base/failure.hpp"
@@ -49,11 +48,7 @@ std::string folder_name(const std::vector<Variation>& variations, const std::vec
   std::vector<std::string> pieces;
   for (std::size_t k = 0; k < values.size(); ++k) pieces.push_back(variations[k].name + "=" + values[k]);
   const std::string whole = pieces.empty() ? "run" : join(pieces, ",");
-  std::string name = whole;
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view(".,=+-_").find(c) == std::string_view::npos)
-      c = '-';
-  if (name.front() == '.') name.front() = '-';
+  const std::string name = as_file_name(whole);
   if (name.size() <= longest) return name;
   return name.substr(0, longest - sum - 1) + "_" + sha256(whole).substr(0, sum);
 }
@@ -87,7 +82,8 @@ DeckCheck check_decks(std::vector<BatchRun>& runs) {
     std::string failure;
     ExitCode code = ExitCode::deck;
     try {
-      const Loaded loaded = load_scene(run.deck, complaints);
+      const Loaded loaded = load_scene(run.deck.request(), complaints);
+      refuse_study(loaded, run.deck.path);
       if (loaded.deck) run.deck_sha256 = loaded.deck->sha256;
       if (complaints.errors() == 0) {
         const auto files = loaded.scene->files();

@@ -6,6 +6,7 @@
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
+#include "core/loop/local_jobs.hpp"
 #include "workbench/batch.hpp"
 #include "workbench/terminal.hpp"
 
@@ -22,7 +23,7 @@ std::string without_patterns(const std::string& path) {
 
 }  // namespace
 
-void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, BatchFolder& folder) {
+void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, OwnFolder& folder) {
   std::string commands;  // a line each: a job that Slurm starts once more goes on where it was
   int count = 0;
   for (const BatchRun& run : runs)

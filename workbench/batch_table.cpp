@@ -6,8 +6,8 @@
 #include "core/base/text.hpp"
 #include "core/base/utf8.hpp"
 #include "core/loop/bounded_json.hpp"
+#include "core/loop/former_run.hpp"
 #include "workbench/batch.hpp"
-#include "workbench/former_run.hpp"
 
 namespace beadwork {
 

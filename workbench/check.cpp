@@ -12,7 +12,7 @@ void add_check(CLI::App& app, Chosen& chosen) {
   verb->add_flag("-v,--verbose", *verbose, "Prints the deck with every value in SI and every default written out");
   verb->callback([&chosen, arguments, verbose] {
     chosen = [arguments, verbose] {
-      const Loaded loaded = load_scene(*arguments);
+      const Loaded loaded = load_checked(arguments->request());
       if (*verbose) write_out(loaded.scene->resolved);
       say("{}: no errors\n", arguments->path);
       return 0;

@@ -105,7 +105,7 @@ std::string times(const Scene& scene, const Trial& trial, int threads) {
 }
 
 int plan(const PlanArguments& arguments) {
-  const Loaded loaded = load_scene(arguments.deck);
+  const Loaded loaded = load_run(arguments.deck);
   Scene& scene = *loaded.scene;
   say("{}: scene '{}'\n\n{}", arguments.deck.path, scene.name, plan_text(scene));
   if (!arguments.fill) {

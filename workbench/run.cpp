@@ -8,8 +8,8 @@
 #include "core/base/failure.hpp"
 #include "core/base/processors.hpp"
 #include "core/base/text.hpp"
+#include "core/loop/former_run.hpp"
 #include "core/version.hpp"
-#include "workbench/former_run.hpp"
 #include "workbench/progress.hpp"
 #include "workbench/run_log.hpp"
 #include "workbench/signals.hpp"
@@ -45,7 +45,7 @@ void tell(int socket, const Headway& headway) {
 
 int run(const RunArguments& arguments) {
   heed_signals();
-  Loaded loaded = load_scene(arguments.deck);
+  Loaded loaded = load_run(arguments.deck);
   if (interrupted) throw Interrupted("interrupted before the run began; nothing is written");
   const bool resume = arguments.resume || (arguments.resume_or_begin &&
                                            FormerRun(arguments.out).can_go_on(file_sums(loaded.scene->files())));

@@ -4,9 +4,9 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <iterator>
+
+#include "core/loop/local_jobs.hpp"
 
 namespace beadwork {
 
@@ -29,11 +29,7 @@ void handle(int number, void (*with)(int)) {
   ::sigaction(number, &action, nullptr);
 }
 
-constexpr int asking[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
-
 }  // namespace
-
-bool ends_by_asking(int number) { return std::find(std::begin(asking), std::end(asking), number) != std::end(asking); }
 
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -41,13 +37,8 @@ void hold_standard_streams() {
       ::_exit(1);  // takes the lowest free number
 }
 
-void default_signals() {
-  for (const int number : asking)
-    if (!is_ignored(number)) handle(number, SIG_DFL);
-}
-
 void heed_signals() {
-  for (const int number : asking)
+  for (const int number : asking_signals())
     if (number != SIGHUP || !is_ignored(SIGHUP)) handle(number, note);
   for (const int number : {SIGPIPE, SIGXFSZ}) handle(number, SIG_IGN);
 }

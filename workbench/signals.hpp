@@ -17,12 +17,4 @@ extern std::atomic<int> interrupted;
 /// errors of the one who writes.
 void heed_signals();
 
-/// Whether this signal asks a run to end in order. Runs heed them from their first lines on: one that such a signal has
-/// killed had not begun.
-bool ends_by_asking(int number);
-
-/// What heed_signals notes does again what it did before; what is ignored stays ignored. For a child, until it becomes
-/// another program.
-void default_signals();
-
 }  // namespace beadwork

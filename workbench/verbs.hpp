@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/failure.hpp"
+#include "core/loop/load.hpp"
 #include "core/loop/run.hpp"
 
 namespace beadwork {
@@ -30,6 +31,7 @@ void add_describe(CLI::App& app, Chosen& chosen);
 void add_plan(CLI::App& app, Chosen& chosen);
 void add_new(CLI::App& app, Chosen& chosen);
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words);
+void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words);
 
 /// What every verb that reads a deck takes.
 struct DeckArguments {
@@ -39,21 +41,17 @@ struct DeckArguments {
   bool no_plugins = false;             ///< the libraries that the deck itself names are not loaded
 
   void add_to(CLI::App& verb);
-};
-
-/// A deck, the plugins it may use, and the scene made of them.
-struct Loaded {
-  std::unique_ptr<Deck> deck;
-  Catalogue catalogue;
-  std::unique_ptr<Scene> scene;
+  /// DeckFailure if a setting is none.
+  DeckRequest request() const;
 };
 
 /// What went wrong as the terminal shows it: with "error:", which complaints about a deck bring along.
 std::string shown(const Fault& fault);
 
 /// Throws DeckFailure with all complaints, or LibraryFailure. Warnings go to stderr.
-Loaded load_scene(const DeckArguments& arguments);
-/// What is wrong with the deck goes to `complaints`, warnings too; there is no scene then, and maybe no deck.
-Loaded load_scene(const DeckArguments& arguments, Complaints& complaints);
+Loaded load_checked(const DeckRequest& request);
+/// A deck that can be run: DeckFailure if it holds a study.
+Loaded load_run(const DeckArguments& arguments);
+void refuse_study(const Loaded& loaded, const std::string& path);
 
 }  // namespace beadwork

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -190,6 +191,14 @@ std::string xml_escaped(std::string_view text) {
   }
   escape(text);
   return result;
+}
+
+std::string as_file_name(std::string text) {
+  for (char& c : text)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view(".,=+-_").find(c) == std::string_view::npos)
+      c = '-';
+  if (text.starts_with('.')) text.front() = '-';
+  return text;
 }
 
 std::vector<OddLine> odd_lines(const std::vector<std::string>& first, const std::vector<std::string>& second) {

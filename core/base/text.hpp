@@ -42,6 +42,9 @@ std::string xml_escaped(std::string_view text);  ///< for an attribute in double
 bool is_plain_name(std::string_view name);
 inline constexpr std::string_view plain_name = "a name without blanks, slashes and quotes, of at most 100 letters";
 
+/// For a folder or a file: what a name should not have becomes '-'.
+std::string as_file_name(std::string text);
+
 /// A line that stands in one of two texts only.
 struct OddLine {
   bool in_second;

@@ -16,12 +16,8 @@ namespace {
 
 using Path = std::filesystem::path;
 
-const char* name_of(Manifest::Of of) {
-  return of == Manifest::Of::run ? Manifest::file_name : Manifest::file_name_of_batch;
-}
-const char* maker(Manifest::Of of) { return of == Manifest::Of::run ? "run" : "batch"; }
 std::string signature(Manifest::Of of) {
-  return fmt::format("beadwork: the files that a {} made, format 1", maker(of));
+  return fmt::format("beadwork: the files that a {} made, format 1", Manifest::maker(of));
 }
 
 constexpr std::uintmax_t longest = std::uintmax_t{1} << 30;
@@ -31,11 +27,13 @@ bool is_plain_name(std::string_view name) {
          std::none_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; });
 }
 
-// A run or batch writes into its folder and one level below it. Whatever else a damaged list says names nothing.
+// A run, batch or study writes into its folder and one level below it. Whatever else a damaged list says names nothing.
 bool can_be_listed(std::string_view file) {
   for (const std::string_view below : {"curves/", "frames/"})
     if (file.starts_with(below)) return is_plain_name(file.substr(below.size()));
-  return is_plain_name(file) && file != Manifest::file_name && file != Manifest::file_name_of_batch;
+  for (const Manifest::Of of : {Manifest::Of::run, Manifest::Of::batch, Manifest::Of::study})
+    if (file == Manifest::name_of(of)) return false;
+  return is_plain_name(file);
 }
 
 // What a kill left of a last line is the beginning of a name, and may be that of another file.
@@ -55,6 +53,8 @@ bool stands(const Path& file) {
 }
 
 }  // namespace
+
+const char* Manifest::maker(Of of) { return of == Of::run ? "run" : of == Of::batch ? "batch" : "study"; }
 
 Path Manifest::place() const { return folder_ / name_of(of_); }
 

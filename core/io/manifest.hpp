@@ -1,6 +1,7 @@
 #pragma once
 // The list of the files that a run made: `run.files`, a line that says so, then a path on each line. A folder is that
-// of a run if it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`.
+// of a run if it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`, and a
+// study, `study.files`.
 
 #include <filesystem>
 #include <optional>
@@ -15,8 +16,11 @@ namespace beadwork {
 class Manifest {
  public:
   static constexpr const char* file_name = "run.files";
-  static constexpr const char* file_name_of_batch = "batch.files";
-  enum class Of { run, batch };
+  enum class Of { run, batch, study };
+  /// "run", "batch" or "study".
+  static const char* maker(Of of);
+  /// Of the list: "batch.files".
+  static std::string name_of(Of of) { return std::string(maker(of)) + ".files"; }
 
   /// That of a folder; nothing if there is none, or a file of this name that no run wrote. MachineFailure if it cannot
   /// be read.

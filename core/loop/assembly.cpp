@@ -119,6 +119,7 @@ void Assembly::run() {
     note_walls();
     for (const auto& plugin : scene_.plugins) blaming(*plugin, "choose", [&] { plugin->choose(); });
   }
+  if (!scene_.studies.empty()) return check_study();
   merge_common_into_stages();
   check_names();
   for (Stage& stage : scene_.stages) check_stage(stage);
@@ -248,8 +249,24 @@ bool Assembly::is_read(Kind kind) const { return !unread_kinds_.contains(kind); 
 
 void Assembly::enlist(Plugin& plugin, Stage& stage) {
   if (auto* filler = as_kind<Filler>(plugin)) scene_.fillers.push_back(filler);
+  if (auto* study = as_kind<Study>(plugin)) scene_.studies.push_back(study);
   for (const InStage& kind : stage_kinds)
     if (kind.kind == plugin.kind()) kind.enlist(stage, plugin);
+}
+
+// Its scenes stand in decks of their own.
+void Assembly::check_study() {
+  const Study& study = *scene_.studies.front();
+  for (const auto& plugin : scene_.plugins)
+    if (plugin->kind() != Kind::study)
+      complaints_.error(plugin->at(), fmt::format("<{}> stands beside a study ({}): a deck with a study runs other "
+                                                  "decks and has no scene of its own",
+                                                  plugin->tag(), study.at().where()));
+  if (scene_.studies.size() > 1)
+    complaints_.error(scene_.studies[1]->at(),
+                      fmt::format("a deck has one study, and there is one at {} already", study.at().where()));
+  deck_.scope.complain_about_unused(*deck_.root, complaints_);
+  if (complaints_.errors() == 0) resolve();
 }
 
 void Assembly::merge_common_into_stages() {

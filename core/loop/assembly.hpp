@@ -25,6 +25,7 @@ class Assembly {
   void note_unread(const Node& node);
   bool is_read(Kind kind) const;
   void enlist(Plugin& plugin, Stage& stage);
+  void check_study();
   void merge_common_into_stages();
   void check_stage(Stage& stage);
   void check_watchers();

@@ -59,6 +59,7 @@ class Scene {
   std::vector<std::unique_ptr<Plugin>> plugins;
   std::vector<Filler*> fillers;
   std::vector<Derived*> derived;
+  std::vector<Study*> studies;  ///< with these there is nothing else: no stages, nothing to run
   std::vector<Stage> stages;
   std::set<std::string> libraries;          ///< of the plugins in use, those that a deck has to name
   std::vector<std::string> families;        ///< names, in the order of their tables

@@ -32,12 +32,14 @@ std::vector<fs::path> libraries_in(const fs::path& place) {
 
 }  // namespace
 
+std::filesystem::path kernel_library() { return boost::dll::this_line_location().string(); }
+
 Catalogue Catalogue::open(const std::vector<fs::path>& extra) {
   std::vector<fs::path> places = extra;
   if (const char* variable = std::getenv("BEADWORK_PLUGINS"))
     for (const std::string& place : split(variable, ':'))
       if (!place.empty()) places.emplace_back(place);
-  const fs::path core = boost::dll::this_line_location().string();
+  const fs::path core = kernel_library();
   places.push_back(fs::canonical(core).parent_path() / "beadwork");
 
   const std::vector<std::string> sets = instruction_sets();

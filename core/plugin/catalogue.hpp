@@ -11,6 +11,9 @@
 
 namespace beadwork {
 
+/// Where the kernel, this very library, lies.
+std::filesystem::path kernel_library();
+
 class Catalogue {
  public:
   /// Libraries are looked for in this order: `extra` (files or folders: the deck's, then the command line's), the

@@ -9,4 +9,5 @@
 #include "core/plugin/filler.hpp"
 #include "core/plugin/load.hpp"
 #include "core/plugin/mover.hpp"
+#include "core/plugin/study.hpp"
 #include "core/plugin/watcher.hpp"

@@ -11,7 +11,7 @@
 
 namespace beadwork {
 
-enum class Kind { fill, bond, contact, load, move, fail, derive, watch };
+enum class Kind { fill, bond, contact, load, move, fail, derive, watch, study };
 
 struct KindRow {
   Kind kind;
@@ -36,6 +36,8 @@ inline constexpr KindRow all_kinds[] = {
      "Provides a field that somebody reads, and runs only in the steps in which it is read. It is added by itself; a "
      "deck names it only to set its parameters."},
     {Kind::watch, "watch", true, "Looks at the scene every few steps and records. Changes nothing."},
+    {Kind::study, "study", false,
+     "Runs whole scenes and learns from what comes of them. A deck with a study has no scene of its own."},
 };
 constexpr const KindRow& row_of(Kind kind) { return all_kinds[static_cast<std::size_t>(kind)]; }
 /// Of what another library hands over.

@@ -16,4 +16,9 @@ std::string write_batch_report(const std::filesystem::path& batch_folder);
 /// Whether a batch has been run there.
 bool is_batch(const std::filesystem::path& folder);
 
+/// The same of a study: its result and its curves.
+std::string write_study_report(const std::filesystem::path& folder);
+/// Whether a study has been conducted there.
+bool is_study(const std::filesystem::path& folder);
+
 }  // namespace beadwork

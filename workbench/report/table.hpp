@@ -1,30 +1,12 @@
 #pragma once
-// Curves as CSV: the first line names the columns with their units, `step [1],time [s],force [N]`.
+// The table of a curve, in the words of the report.
 
-#include <string>
-#include <vector>
+#include "core/base/curve_table.hpp"
 
 namespace beadwork::report {
 
-struct Column {
-  std::string name, unit;
-  std::vector<double> values;  ///< a cell that is empty or `nan` is NaN: a gap in the curve
-  bool is_reference() const { return name.starts_with("reference"); }
-};
-
-struct Table {
-  std::vector<Column> columns;
-  int dropped_rows = 0;  ///< rows that were cut off or held something other than numbers
-  int odd_numbers = 0;   ///< infinite, no number, or too large to be drawn: gaps, too
-
-  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
-  const Column* find(const std::string& name) const;  ///< nullptr if there is none
-};
-
-/// A row that is not whole is dropped and counted, and so is a last line without its end, which is still being written.
-Table parse_table(const std::string& text);
-
-/// Numbers beyond it are no measure of anything, and their squares overflow.
-constexpr double largest_drawn = 1e150;
+using Column = CurveValues;
+using Table = CurveTable;
+using beadwork::parse_table;
 
 }  // namespace beadwork::report

@@ -1,4 +1,4 @@
-// The folder of a batch: who writes it, and which of its files a batch has made.
+#include "core/io/own_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,7 +11,6 @@
 
 #include "core/base/failure.hpp"
 #include "core/io/run_folder.hpp"
-#include "workbench/batch.hpp"
 
 namespace beadwork {
 
@@ -19,16 +18,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Two batches in one folder would start each run twice.
-Descriptor locked(const fs::path& folder) {
+/// Two of them in one folder would start each run twice.
+Descriptor locked(const fs::path& folder, Manifest::Of of) {
   Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock && ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw DeckFailure(fmt::format("error: a batch is running in '{}' already: {}; wait for it, or choose another --out",
-                                  folder.string(), holder_of(folder)));
+    throw DeckFailure(fmt::format("error: a {} is running in '{}' already: {}; wait for it, or choose another --out",
+                                  Manifest::maker(of), folder.string(), holder_of(folder)));
   return lock;
 }
 
 }  // namespace
+
+bool is_busy(const fs::path& folder) {
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return descriptor && ::flock(descriptor.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
 
 std::string holder_of(const fs::path& path) {
   struct stat file;
@@ -44,18 +48,17 @@ std::string holder_of(const fs::path& path) {
   return "another process";
 }
 
-BatchFolder::BatchFolder(const fs::path& root) : root_(root) {
-  make_output_folder(root, "batch");
-  lock_ = locked(root);
-  list_ = Manifest::read(root, Manifest::Of::batch);
-  if (!list_) Manifest::refuse_what_stands(root / Manifest::file_name_of_batch, Manifest::Of::batch);
+OwnFolder::OwnFolder(const fs::path& root, Manifest::Of of) : root_(root), of_(of) {
+  make_output_folder(root, Manifest::maker(of));
+  lock_ = locked(root, of);
+  list_ = Manifest::read(root, of);
+  if (!list_) Manifest::refuse_what_stands(root / Manifest::name_of(of), of);
 }
 
-fs::path BatchFolder::claim(const std::string& name) {
+fs::path OwnFolder::claim(const std::string& name) {
   if (!list_) {
-    Manifest::refuse_what_stands(root_ / name,
-                                 Manifest::Of::batch);  // then no list is left in the folder of somebody else
-    list_ = Manifest::begin(root_, {}, Manifest::Of::batch);
+    Manifest::refuse_what_stands(root_ / name, of_);  // then no list is left in the folder of somebody else
+    list_ = Manifest::begin(root_, {}, of_);
   }
   list_->claim(name);
   return root_ / name;

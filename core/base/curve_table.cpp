@@ -1,4 +1,4 @@
-#include "workbench/report/table.hpp"
+#include "core/base/curve_table.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace beadwork::report {
+namespace beadwork {
 
 namespace {
 
@@ -27,7 +27,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-Column heading(std::string_view cell) {
+CurveValues heading(std::string_view cell) {
   const auto open = cell.rfind('[');
   if (open == std::string_view::npos || !cell.ends_with(']')) return {std::string(cell), "1", {}};
   return {std::string(trimmed(cell.substr(0, open))), std::string(cell.substr(open + 1, cell.size() - open - 2)), {}};
@@ -45,7 +45,7 @@ std::optional<double> value_of(std::string_view cell) {
   return value;
 }
 
-bool append_row(Table& table, std::string_view line) {
+bool append_row(CurveTable& table, std::string_view line) {
   const auto cells = cells_of(line);
   if (cells.size() != table.columns.size()) return false;
   std::vector<double> row;
@@ -62,13 +62,13 @@ bool append_row(Table& table, std::string_view line) {
 
 }  // namespace
 
-const Column* Table::find(const std::string& name) const {
-  const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+const CurveValues* CurveTable::find(const std::string& name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const CurveValues& c) { return c.name == name; });
   return found == columns.end() ? nullptr : &*found;
 }
 
-Table parse_table(const std::string& text) {
-  Table table;
+CurveTable parse_table(const std::string& text) {
+  CurveTable table;
   std::string_view rest = text;
   while (!rest.empty()) {
     const auto end = rest.find('\n');
@@ -85,4 +85,4 @@ Table parse_table(const std::string& text) {
   return table;
 }
 
-}  // namespace beadwork::report
+}  // namespace beadwork

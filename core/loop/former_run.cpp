@@ -1,4 +1,4 @@
-#include "workbench/former_run.hpp"
+#include "core/loop/former_run.hpp"
 
 #include <vector>
 

@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include "core/base/text.hpp"
+#include "core/plugin/kinds.hpp"
+#include "plugins/study/calibration_work.hpp"
+
+namespace beadwork {
+
+/// The parameters of bonds whose solid has the stiffness and strength that are wanted.   docs/theory/calibration.md
+class Calibration final : public Study {
+ public:
+  static constexpr const char* about =
+      "Finds radius ratio, Young's modulus and strengths of the bonds of a solid with a wanted stiffness and strength";
+  Param<std::string> name{
+      this, {.name = "name", .doc = "Name of the material, and of its file of parameters NAME.calibration.xml"}};
+  Param<Real> young{
+      this, {.name = "young", .unit = "Pa", .range = positive, .doc = "Young's modulus of the solid that is wanted"}};
+  Param<Real> poisson{this,
+                      {.name = "poisson", .range = {-1, 1}, .doc = "Poisson's ratio of the solid that is wanted"}};
+  Param<Real> strength{this,
+                       {.name = "strength",
+                        .unit = "Pa",
+                        .range = positive,
+                        .doc = "Largest stress in tension that is wanted; where absent no strengths are looked for",
+                        .optional = true}};
+  Param<Real> density{this,
+                      {.name = "density",
+                       .unit = "kg/m^3",
+                       .range = positive,
+                       .doc = "Density of the solid; that of the elements follows",
+                       .optional = true}};
+  Param<std::string> shape{
+      this, {.name = "shape", .doc = "Of the samples", .fallback = "box", .choices = {"box", "cylinder"}}};
+  Param<std::int64_t> elements{this, {.name = "elements", .range = {1}, .doc = "Of a sample", .fallback = "5000"}};
+  Param<std::int64_t> seeds{
+      this, {.name = "seeds", .range = {1, 1000}, .doc = "Number of samples, with seeds 1, 2, ...", .fallback = "3"}};
+  Param<Real> spread{this,
+                     {.name = "spread",
+                      .range = {0, 1, false, true},
+                      .doc = "Largest deviation of a radius from the mean, over the mean",
+                      .fallback = "0.25"}};
+  Param<Real> coordination{this,
+                           {.name = "coordination",
+                            .range = positive,
+                            .doc = "Mean number of contacts of the samples' elements",
+                            .fallback = "6.2"}};
+  Param<std::string> counted{this,
+                             {.name = "counted",
+                              .doc = "Whose contacts: of all elements, or of those farther than three mean radii from "
+                                     "walls",
+                              .fallback = "all",
+                              .choices = {"all", "bulk"}}};
+  Param<Real> bond_poisson{this,
+                           {.name = "bond-poisson",
+                            .range = {0, 0.5},
+                            .doc = "Poisson's ratio of the bonds, on which that of the solid hardly depends",
+                            .fallback = "0.3"}};
+  Param<QuantityRows> ratios{this,
+                             {.name = "radius-ratios",
+                              .doc = "Radius ratios at which stiffness and Poisson's ratio are measured, joined by "
+                                     "commas",
+                              .fallback = "0.05, 0.1, 0.17, 0.25, 0.35, 0.5, 0.7, 0.9",
+                              .columns = {"1"}}};
+  Param<std::string> section{this,
+                             {.name = "section",
+                              .doc = "Of a sample, over which its force is a stress: to the centres of the outer "
+                                     "elements, or to its outer faces",
+                              .fallback = "centres",
+                              .choices = {"centres", "faces"}}};
+  Param<std::vector<std::string>> criteria{this,
+                                           {.name = "criteria",
+                                            .doc = "Criteria of failure whose strength is looked for: those of "
+                                                   "<bond-stress> by their measures, and of <virial-stress>",
+                                            .fallback = "bbf-axial-bending rdef",
+                                            .choices = {"bbf-axial", "bbf-axial-bending", "bbf-principal", "rdef"}}};
+  Param<std::string> by{this,
+                        {.name = "by",
+                         .doc = "How the samples are stretched: with inertia, slowly (verlet)",
+                         .fallback = "verlet",
+                         .choices = {"verlet"}}};
+
+  void check(Complaints& complaints) const override {
+    if (name.given() && !is_plain_name(*name))
+      complaints.error(name.at(), fmt::format("'name' wants {}, got \"{}\"", plain_name, *name));
+    check_size(complaints);
+    if (!ratios.given()) return;
+    if (ratios->size() < 2) complaints.error(ratios.at(), "'radius-ratios' wants two radius ratios at least");
+    for (const auto& row : *ratios)
+      if (!(row[0] > 0 && row[0] <= 1))
+        complaints.error(ratios.at(),
+                         fmt::format("a radius ratio must be > 0 and <= 1, got {}", format_number(row[0])));
+  }
+
+  void conduct(const StudyDesk& desk) override {
+    const calibration::Plan plan = this->plan();
+    const calibration::Found found = calibration::Work(plan, desk, poisson.at()).all();
+    write_curves(plan, found, desk);
+    desk.result(result_json(plan, found));
+    const auto file = desk.write(*name + ".calibration.xml", calibration::parameters(plan, found, desk.provenance));
+    desk.log.say(fmt::format("written: {}", file.string()));
+  }
+
+ private:
+  static constexpr Real fewest_across_ = 6, density_ = 0.64;
+
+  /// Elements across a box or the diameter of a cylinder.
+  Real across(Real count) const {
+    return *shape == "box" ? std::cbrt(count * std::numbers::pi / 6 / density_) : std::cbrt(count / (3 * density_));
+  }
+
+  void check_size(Complaints& complaints) const {
+    if (!elements.given() || !shape.given() || across(static_cast<Real>(*elements)) >= fewest_across_) return;
+    const Real cube = fewest_across_ * fewest_across_ * fewest_across_;
+    const Real fewest = *shape == "box" ? cube * 6 * density_ / std::numbers::pi : cube * 3 * density_;
+    complaints.error(
+        elements.at(),
+        fmt::format("{} elements are {:.1f} across the {}, of which the walls spoil the outer ones: {} are "
+                    "wanted at least, which are {:.0f} elements; 5000 are a good start",
+                    *elements, across(static_cast<Real>(*elements)), *shape, fewest_across_, std::ceil(fewest)));
+  }
+
+  calibration::Plan plan() const {
+    calibration::Plan plan;
+    plan.material = {*name, *young, *poisson, {}, {}};
+    if (strength.given()) plan.material.strength = *strength;
+    if (density.given()) plan.material.density = *density;
+    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by};
+    for (const auto& row : *ratios) plan.ratios.push_back(row[0]);
+    plan.seeds = *seeds;
+    plan.bond_poisson = *bond_poisson;
+    plan.through_centres = *section == "centres";
+    plan.criteria = *criteria;
+    return plan;
+  }
+};
+
+}  // namespace beadwork

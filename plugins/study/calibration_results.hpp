@@ -1,0 +1,176 @@
+#pragma once
+// What a calibration leaves: the file of parameters, curves, and figures for summary.json.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/base/text.hpp"
+#include "core/mechanics/bonded_packing.hpp"
+#include "core/plugin/study.hpp"
+#include "plugins/study/calibration_plan.hpp"
+
+namespace beadwork::calibration {
+
+template <class T>
+std::vector<Real> each(const std::vector<T>& all, Real T::*member) {
+  std::vector<Real> values;
+  for (const T& one : all) values.push_back(one.*member);
+  return values;
+}
+
+/// To so many digits: what stands in the file is what was run.
+inline Real rounded(Real value, int digits) {
+  if (value == 0) return 0;
+  const Real scale = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * scale) / scale;
+}
+
+/// "0.372 +- 0.004"
+inline std::string spread_text(const std::vector<Real>& values, int digits = 4) {
+  const Spread spread = spread_of(values);
+  if (values.size() < 2) return fmt::format("{:.{}g}", spread.mean, digits);
+  return fmt::format("{:.{}g} +- {:.1g}", spread.mean, digits, spread.deviation);
+}
+
+/// In MPa.
+inline std::string stress_text(std::vector<Real> values) {
+  for (Real& value : values) value *= 1e-6;
+  return spread_text(values) + " MPa";
+}
+
+inline Real modulus_of(const Plan& plan, const Elastic& e) { return plan.through_centres ? e.centres : e.box; }
+inline std::vector<Real> moduli_of(const Plan& plan, const std::vector<Elastic>& all) {
+  return each(all, plan.through_centres ? &Elastic::centres : &Elastic::box);
+}
+
+/// "bbf-strength" of the criterion "bbf-axial-bending", which <bond-stress> takes where it is told nothing.
+inline std::string parameter_of(const std::string& criterion) {
+  return (criterion == "bbf-axial-bending" ? "bbf" : criterion) + "-strength";
+}
+
+inline std::string parameter_line(const std::string& name, const std::string& value, const std::string& remark) {
+  return fmt::format("  <parameter name=\"{}\" value=\"{}\"/>{}\n", name, value,
+                     remark.empty() ? "" : "  <!-- " + remark + " -->");
+}
+
+inline std::string parameters(const Plan& plan, const Found& found, const std::string& provenance) {
+  const Material& m = plan.material;
+  const std::string name = m.name + ".";
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Bonds whose solid is {}: Young's modulus {:.6g} GPa, Poisson's "
+      "ratio {:.4g}{}.\n     {}.\n     {} samples ({}, {} elements, spread of radii {:.4g}, seeds 1 to {}): "
+      "coordination {} ({} "
+      "in the bulk), density {} in the bulk.\n     Stress is the reaction over the section {}.\n     Behind +-: the "
+      "standard deviation of the samples. -->\n<scene>\n",
+      m.name, 1e-9 * m.young, m.poisson,
+      m.strength ? fmt::format(", tensile strength {:.6g} MPa", 1e-6 * *m.strength) : "", provenance, plan.seeds,
+      plan.decks.is_cylinder ? "cylinder" : "box", plan.decks.elements, plan.decks.spread, plan.seeds,
+      spread_text(each(found.packings, &Packed::coordination)),
+      spread_text(each(found.packings, &Packed::coordination_bulk)),
+      spread_text(each(found.packings, &Packed::density_bulk)),
+      plan.through_centres ? "through the centres of the outer elements" : "of the whole sample");
+  text += parameter_line(name + "radius-ratio", format_number(found.ratio),
+                         "samples by themselves: " + spread_text(found.ratios));
+  std::vector<Real> young;
+  for (const Elastic& e : found.elastic) young.push_back(1e-9 * m.young / modulus_of(plan, e));
+  text += parameter_line(name + "young", format_number(found.young) + " Pa", spread_text(young) + " GPa");
+  text += parameter_line(name + "poisson", format_number(plan.bond_poisson),
+                         "of the bonds; the solid hardly depends on it");
+  if (m.density) {
+    const Real packed = spread_of(each(found.packings, &Packed::density_bulk)).mean;
+    text += parameter_line(name + "density", format_number(rounded(*m.density / packed, 5)) + " kg/m^3",
+                           fmt::format("of the elements: that of the solid is {:.6g} kg/m^3", *m.density));
+  }
+  for (const Strength& s : found.strengths)
+    if (s.trouble.empty())
+      text += parameter_line(
+          name + parameter_of(s.criterion), format_number(s.value) + " Pa",
+          fmt::format("{}; with it the samples carry {}", stress_text(s.wanted), stress_text(s.confirmed)));
+  return text + "</scene>\n";
+}
+
+/// nu_M and E_M/E_mu over the radius ratio: means, each sample, and the closed form.
+inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& desk) {
+  CurvePlan poisson{.columns = {{"radius-ratio", "1"}, {"poisson", "1"}, {"deviation", "1"}},
+                    .title = "Poisson's ratio of the solid",
+                    .x = "radius-ratio",
+                    .y = {"poisson"}};
+  CurvePlan stiffness{.columns = {{"radius-ratio", "1"}, {"modulus-ratio", "1"}, {"deviation", "1"}},
+                      .title = "Young's modulus of the solid over that of the bonds",
+                      .x = "radius-ratio",
+                      .y = {"modulus-ratio"}};
+  for (const Packed& packing : found.packings) {
+    poisson.columns.push_back({fmt::format("seed-{}", packing.seed), "1"});
+    stiffness.columns.push_back({fmt::format("seed-{}", packing.seed), "1"});
+  }
+  stiffness.columns.push_back({"reference closed form", "1"});
+  std::set<Real> ratios;
+  for (const Curves& curves : found.curves)
+    for (const auto& [ratio, value] : curves.poisson.points()) ratios.insert(ratio);
+  std::vector<std::vector<Real>> poisson_rows, stiffness_rows;
+  for (const Real ratio : ratios) {
+    std::vector<Real> nu, modulus;
+    for (const Curves& curves : found.curves) {
+      nu.push_back(curves.poisson.at(ratio));
+      modulus.push_back(curves.stiffness.at(ratio));
+    }
+    const Spread s = spread_of(nu), t = spread_of(modulus);
+    poisson_rows.push_back({ratio, s.mean, s.deviation});
+    poisson_rows.back().insert(poisson_rows.back().end(), nu.begin(), nu.end());
+    stiffness_rows.push_back({ratio, t.mean, t.deviation});
+    stiffness_rows.back().insert(stiffness_rows.back().end(), modulus.begin(), modulus.end());
+    const Real z = spread_of(each(found.packings, &Packed::coordination)).mean;
+    const Real phi = spread_of(each(found.packings, &Packed::density_bulk)).mean;
+    stiffness_rows.back().push_back(stiffness_ratio({z, phi, ratio}, s.mean));
+  }
+  desk.curve("poisson", poisson, poisson_rows);
+  desk.curve("stiffness", stiffness, stiffness_rows);
+  const Real modulus = spread_of(moduli_of(plan, found.elastic)).mean;
+  desk.curve("young",
+             {.columns = {{"young-of-bonds", "Pa"}, {"young", "Pa"}},
+              .title = "Young's modulus of the solid at the radius ratio that was found",
+              .x = "young-of-bonds",
+              .y = {"young"}},
+             {{0, 0}, {found.young, found.young * modulus}, {1.5 * found.young, 1.5 * found.young * modulus}});
+}
+
+inline std::string numbers_json(const std::vector<Real>& values) {
+  const Spread spread = spread_of(values);
+  return fmt::format(R"({{"mean":{},"deviation":{},"samples":[{}]}})", format_number(spread.mean),
+                     format_number(spread.deviation), fmt::join(values, ","));
+}
+
+inline std::string result_json(const Plan& plan, const Found& found) {
+  const Material& m = plan.material;
+  std::vector<Real> low = each(found.packings, &Packed::fabric_low), high = each(found.packings, &Packed::fabric_high);
+  std::string text = fmt::format(
+      R"({{"material":"{}","elements":{},"seeds":{},"section":"{}","solved_by":"{}",)"
+      R"("packing":{{"coordination":{},"coordination_bulk":{},"density_bulk":{},"fabric_least":{},"fabric_largest":{}}},)"
+      R"("radius_ratio":{{"value":{},"samples":{}}},"young_of_bonds":{},"poisson":{},)"
+      R"("modulus_ratio":{{"reaction_through_centres":{},"reaction_over_box":{},"virial_in_core":{},"closed_form":{}}},)"
+      R"("lateral_stress_in_core":{})",
+      m.name, plan.decks.elements, plan.seeds, plan.through_centres ? "centres" : "box", plan.decks.by,
+      numbers_json(each(found.packings, &Packed::coordination)),
+      numbers_json(each(found.packings, &Packed::coordination_bulk)),
+      numbers_json(each(found.packings, &Packed::density_bulk)), numbers_json(low), numbers_json(high),
+      format_number(found.ratio), numbers_json(found.ratios), format_number(found.young),
+      numbers_json(each(found.elastic, &Elastic::poisson)), numbers_json(each(found.elastic, &Elastic::centres)),
+      numbers_json(each(found.elastic, &Elastic::box)), numbers_json(each(found.elastic, &Elastic::virial)),
+      format_number(stiffness_ratio({spread_of(each(found.packings, &Packed::coordination)).mean,
+                                     spread_of(each(found.packings, &Packed::density_bulk)).mean, found.ratio},
+                                    spread_of(each(found.elastic, &Elastic::poisson)).mean)),
+      numbers_json(each(found.elastic, &Elastic::sideways)));
+  for (const auto& [axis, elastic] : found.along)
+    text += fmt::format(R"(,"along_{}":{{"modulus_ratio":{},"poisson":{}}})", axis,
+                        numbers_json(moduli_of(plan, elastic)), numbers_json(each(elastic, &Elastic::poisson)));
+  for (const Strength& s : found.strengths)
+    text += s.trouble.empty() ? fmt::format(R"(,"{}":{{"strength":{},"samples":{},"peak":{}}})", s.criterion,
+                                            format_number(s.value), numbers_json(s.wanted), numbers_json(s.confirmed))
+                              : fmt::format(R"(,"{}":{{"strength":null}})", s.criterion);
+  return text + "}";
+}
+
+}  // namespace beadwork::calibration

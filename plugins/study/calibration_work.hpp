@@ -1,0 +1,355 @@
+#pragma once
+// The steps of a calibration, each of which runs scenes and adds to what has been found.   docs/theory/calibration.md
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "core/base/failure.hpp"
+#include "plugins/study/calibration_results.hpp"
+
+namespace beadwork::calibration {
+
+class Work {
+ public:
+  Work(const Plan& plan, const StudyDesk& desk, const Location& poisson_at)
+      : plan_(plan), desk_(desk), poisson_at_(poisson_at) {}
+
+  Found all() {
+    desk_.write("size.xml", size_deck(plan_.decks));
+    pack();
+    desk_.write("sample.xml", sample_deck(plan_.decks, found_.packings.front().file));
+    elastic_deck_ = desk_.write("elastic.xml", elastic_deck(plan_.decks));
+    found_.curves.resize(found_.packings.size());
+    measure(plan_.ratios);
+    find_ratio();
+    find_young();
+    look_along_other_axes();
+    if (plan_.material.strength)
+      for (const std::string& criterion : plan_.criteria) find_strength(criterion);
+    return found_;
+  }
+
+ private:
+  using Overrides = std::vector<Override>;
+  static constexpr Real strain_ = 1e-4;  // of elastic samples
+  static constexpr Real transits_ = 40;  // of waves along a sample, while it is stretched: slow where there is inertia
+  static constexpr Real close_ = 1e-3;   // of Poisson's ratio to the target
+  static constexpr int digits_ = 4;      // of what is found
+
+  // --- samples ------------------------------------------------------------------------------------------------------
+
+  void pack() {
+    const auto deck = desk_.write("packing.xml", packing_deck(plan_.decks));
+    std::vector<Errand> errands;
+    for (std::int64_t seed = 1; seed <= plan_.seeds; ++seed)
+      errands.push_back({fmt::format("packing,seed={}", seed), deck, {{"seed", std::to_string(seed)}}});
+    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const Outcome& one = outcomes[k];
+      if (!one.is_done()) throw PhysicsFailure(fmt::format("error: {}: {}", errands[k].name, one.reason));
+      const auto last = [&](const char* name) { return last_step(one, name); };
+      found_.packings.push_back({static_cast<std::int64_t>(k) + 1,
+                                 (one.folder / "run.h5").lexically_relative(desk_.folder).string(),
+                                 last("coordination"), last("coordination_bulk"), last("density_bulk"),
+                                 last("fabric_eigenvalues/0"), last("fabric_eigenvalues/2")});
+    }
+    desk_.log.say(fmt::format("{} samples of {} elements: coordination {}, {} in the bulk; density {}", plan_.seeds,
+                              plan_.decks.elements, spread_text(each(found_.packings, &Packed::coordination)),
+                              spread_text(each(found_.packings, &Packed::coordination_bulk)),
+                              spread_text(each(found_.packings, &Packed::density_bulk))));
+  }
+
+  // Of the last step of the filling that tells it.
+  static Real last_step(const Outcome& outcome, const std::string& name) {
+    Real value = std::numeric_limits<Real>::quiet_NaN();
+    for (int step = 0; outcome.numbers.contains(fmt::format("packing/{}/elements", step)); ++step)
+      value = outcome.number(fmt::format("packing/{}/{}", step, name));
+    return value;
+  }
+
+  // --- elastic ------------------------------------------------------------------------------------------------------
+
+  Real extent() const {  // [m]
+    const Real n = static_cast<Real>(plan_.decks.elements), phi = 0.64, radius = 1e-3;
+    return plan_.decks.is_cylinder ? 2 * std::cbrt(n * 8 / (3 * phi)) * radius
+                                   : std::cbrt(n * 4 * std::numbers::pi / (3 * phi)) * radius;
+  }
+  // Of the sample's waves along its length, with the decks' density.
+  Real transit() const { return extent() / std::sqrt(plan_.material.young / 640); }
+
+  Real guessed_young(const Packed& packing, Real ratio) const {
+    const Real guess = stiffness_ratio({packing.coordination, packing.density_bulk, ratio},
+                                       std::min(plan_.material.poisson, Real(0.45)));
+    return rounded(plan_.material.young / guess, digits_);
+  }
+
+  Overrides sample_of(const Packed& packing, Real ratio, Real young) const {
+    return {{"packing", packing.file},
+            {"radius-ratio", format_number(ratio)},
+            {"young", format_number(young) + " Pa"},
+            {"poisson", format_number(plan_.bond_poisson)}};
+  }
+
+  Errand elastic_errand(const Packed& packing, Real ratio, Real young, const std::string& axis) const {
+    Errand errand{fmt::format("elastic-{},seed={},radius-ratio={}", axis, packing.seed, format_number(ratio)),
+                  elastic_deck_, sample_of(packing, ratio, young)};
+    add(errand.overrides, {{"stretch", length_text(strain_ * extent())}, {"time", time_text(transits_ * transit())}});
+    if (axis != first_axis()) add(errand.overrides, turned_to(axis));
+    return errand;
+  }
+
+  static void add(Overrides& all, const Overrides& more) { all.insert(all.end(), more.begin(), more.end()); }
+  static std::string length_text(Real metres) { return format_number(rounded(metres * 1e3, digits_)) + " mm"; }
+  static std::string time_text(Real seconds) { return format_number(rounded(seconds * 1e6, digits_)) + " us"; }
+
+  std::string first_axis() const { return plan_.decks.is_cylinder ? "z" : "x"; }
+
+  static Overrides turned_to(const std::string& axis) {
+    return {{"axis", axis},
+            {"others", axis == "x"   ? "y z"
+                       : axis == "y" ? "x z"
+                                     : "x y"},
+            {"turns", "r" + axis},
+            {"nx", axis == "x" ? "1" : "0"},
+            {"ny", axis == "y" ? "1" : "0"},
+            {"nz", axis == "z" ? "1" : "0"}};
+  }
+
+  static Real last(std::span<const Real> values) {
+    return values.empty() ? std::numeric_limits<Real>::quiet_NaN() : values.back();
+  }
+
+  Real section(bool through_centres) const {  // [m^2]
+    const Real side = plan_.decks.is_cylinder ? extent() / 2 : extent();
+    const Real width = side - (through_centres ? 2e-3 : 0);
+    return (plan_.decks.is_cylinder ? std::numbers::pi / 4 : 1) * width * width;
+  }
+
+  Elastic read(const Outcome& outcome, const std::string& axis, Real young) const {
+    const Real force = last(outcome.column("force", "force")), stretch = last(outcome.column("force", "displacement"));
+    const auto near = outcome.column("near", "mean"), far = outcome.column("far", "mean");
+    const Real length = near.empty() || far.empty() ? std::numeric_limits<Real>::quiet_NaN() : far[0] - near[0];
+    const auto core = [&](const char* what, char a) {
+      return last(outcome.column("core", fmt::format("{}-{}{}", what, a, a)));
+    };
+    Real strain = 0, stress = 0, lateral_strain = 0, lateral_stress = 0;
+    for (const char a : {'x', 'y', 'z'}) {
+      const bool is_along = a == axis[0];
+      (is_along ? strain : lateral_strain) += core("strain", a) / (is_along ? 1 : 2);
+      (is_along ? stress : lateral_stress) += core("stress", a) / (is_along ? 1 : 2);
+    }
+    const Real modulus = force * length / stretch / young;
+    return {-lateral_strain / strain, modulus / section(true), modulus / section(false), stress / strain / young,
+            lateral_stress / stress};
+  }
+
+  // All samples at each of these ratios.
+  void measure(const std::vector<Real>& ratios) {
+    std::vector<Errand> errands;
+    std::vector<std::pair<std::size_t, Real>> of;  // sample and ratio
+    for (const Real ratio : ratios)
+      for (std::size_t k = 0; k < found_.packings.size(); ++k) {
+        const Packed& packing = found_.packings[k];
+        errands.push_back(elastic_errand(packing, ratio, guessed_young(packing, ratio), first_axis()));
+        of.emplace_back(k, ratio);
+      }
+    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const auto [sample, ratio] = of[k];
+      const Elastic one = read(outcomes[k], first_axis(), guessed_young(found_.packings[sample], ratio));
+      if (!outcomes[k].is_done() || !std::isfinite(one.poisson) || !std::isfinite(one.centres)) {
+        desk_.log.warn(fmt::format("{} is left out: {}", errands[k].name, outcomes[k].reason));
+        continue;
+      }
+      found_.curves[sample].poisson.note(ratio, one.poisson);
+      found_.curves[sample].stiffness.note(ratio, modulus_of(plan_, one));
+      elastic_[{sample, ratio}] = one;
+    }
+    for (const Real ratio : ratios) tell(ratio);
+  }
+
+  std::vector<Elastic> at(Real ratio) const {
+    std::vector<Elastic> all;
+    for (std::size_t k = 0; k < found_.packings.size(); ++k)
+      if (const auto one = elastic_.find({k, ratio}); one != elastic_.end()) all.push_back(one->second);
+    return all;
+  }
+
+  void tell(Real ratio) const {
+    const std::vector<Elastic> all = at(ratio);
+    if (all.empty()) return;
+    desk_.log.say(fmt::format("radius ratio {:<8} Poisson's ratio {}, E over that of the bonds {}",
+                              format_number(ratio), spread_text(each(all, &Elastic::poisson)),
+                              spread_text(moduli_of(plan_, all))));
+  }
+
+  // --- inversion ----------------------------------------------------------------------------------------------------
+
+  // Mean over the samples.
+  Response mean_poisson() const {
+    Response mean;
+    for (const auto& [key, one] : elastic_) {
+      const std::vector<Elastic> all = at(key.second);
+      if (all.size() == found_.packings.size()) mean.note(key.second, spread_of(each(all, &Elastic::poisson)).mean);
+    }
+    return mean;
+  }
+
+  void find_ratio() {
+    const Real wanted = plan_.material.poisson;
+    constexpr int rounds = 6;
+    for (int round = 0; round < rounds; ++round) {
+      const Response poisson = mean_poisson();
+      if (poisson.is_empty()) throw PhysicsFailure("error: no elastic sample came to its end");
+      const auto ratio = poisson.where(wanted);
+      if (!ratio) refuse_target(poisson);
+      found_.ratio = rounded(*ratio, digits_);
+      if (at(found_.ratio).size() < found_.packings.size()) measure({found_.ratio});
+      const std::vector<Elastic> now = at(found_.ratio);
+      if (now.empty())
+        throw PhysicsFailure("error: no elastic sample came to its end at the radius ratio that was found");
+      if (std::abs(spread_of(each(now, &Elastic::poisson)).mean - wanted) < close_) break;
+    }
+    found_.elastic = at(found_.ratio);
+    for (const Curves& curves : found_.curves)
+      if (const auto own = curves.poisson.where(wanted)) found_.ratios.push_back(*own);
+    desk_.log.say(fmt::format("found: radius ratio {}, by each sample {}", format_number(found_.ratio),
+                              found_.ratios.empty() ? "none" : spread_text(found_.ratios)));
+  }
+
+  [[noreturn]] void refuse_target(const Response& poisson) const {
+    const auto& points = poisson.points();
+    const Response::Span span = poisson.range();
+    refuse(
+        poisson_at_,
+        fmt::format("a Poisson's ratio of {} is out of reach: with {} elements it goes from {:.3g} to {:.3g} between "
+                    "the radius ratios {} and {}; 'radius-ratios' can widen that, a lattice or another law of bonds "
+                    "change it (docs/theory/calibration.md)",
+                    format_number(plan_.material.poisson), plan_.decks.elements, span.low, span.high,
+                    format_number(points.begin()->first), format_number(points.rbegin()->first)));
+  }
+
+  // E of the solid is proportional to that of the bonds.
+  void find_young() {
+    found_.young = rounded(plan_.material.young / spread_of(moduli_of(plan_, found_.elastic)).mean, digits_);
+    desk_.log.say(
+        fmt::format("found: E of the bonds {:.4g} GPa, {} times that of the solid ({} over the whole section, "
+                    "{} by the virial of the core)",
+                    1e-9 * found_.young, format_number(rounded(found_.young / plan_.material.young, digits_)),
+                    inverse_text(&Elastic::box), inverse_text(&Elastic::virial)));
+  }
+  std::string inverse_text(Real Elastic::*modulus) const {
+    return format_number(rounded(1 / spread_of(each(found_.elastic, modulus)).mean, digits_));
+  }
+
+  void look_along_other_axes() {
+    found_.along[first_axis()] = found_.elastic;
+    if (plan_.decks.is_cylinder) return;
+    std::vector<Errand> errands;
+    for (const char* axis : {"y", "z"})
+      for (const Packed& packing : found_.packings)
+        errands.push_back(elastic_errand(packing, found_.ratio, found_.young, axis));
+    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const std::string axis = k < found_.packings.size() ? "y" : "z";
+      if (outcomes[k].is_done()) found_.along[axis].push_back(read(outcomes[k], axis, found_.young));
+    }
+    for (const auto& [axis, all] : found_.along)
+      desk_.log.say(fmt::format("along {}: E {} GPa, Poisson's ratio {}", axis,
+                                spread_text(scaled(moduli_of(plan_, all), 1e-9 * found_.young)),
+                                spread_text(each(all, &Elastic::poisson))));
+  }
+  static std::vector<Real> scaled(std::vector<Real> values, Real factor) {
+    for (Real& value : values) value *= factor;
+    return values;
+  }
+
+  // --- strength -----------------------------------------------------------------------------------------------------
+
+  static std::string plugin_of(const std::string& criterion) {
+    return criterion == "rdef" ? R"(virial-stress of="beam")"
+                               : fmt::format(R"(bond-stress of="beam" measure="{}")", criterion.substr(4));
+  }
+
+  /// What the first try takes: a multiple of the mean over all bonds or elements at the strength that is wanted, as few
+  /// of these carry the most.
+  Real first_try(const std::string& criterion, const Packed& packing) const {
+    const BondedPacking solid{packing.coordination_bulk, packing.density_bulk, found_.ratio};
+    const Real mean = criterion == "rdef" ? hydrostatic_stress_ratio(solid) : axial_stress_ratio(solid);
+    return rounded((criterion == "rdef" ? 6 : 8) * mean * *plan_.material.strength, digits_);
+  }
+
+  Errand strength_errand(const std::string& criterion, const std::filesystem::path& deck, const Packed& packing,
+                         Real strength) const {
+    constexpr Real longest = 4;  // times the strain at which an elastic solid has the strength that is wanted
+    const Real strain = longest * *plan_.material.strength / plan_.material.young;
+    Errand errand{fmt::format("{},seed={},strength={}-MPa", criterion, packing.seed,
+                              format_number(rounded(1e-6 * strength, digits_))),
+                  deck, sample_of(packing, found_.ratio, found_.young)};
+    add(errand.overrides, {{"strength", format_number(strength) + " Pa"},
+                           {"stretch", length_text(strain * extent())},
+                           {"time", time_text(longest * transits_ * transit())}});
+    return errand;
+  }
+
+  /// The largest stress that the sample carries [Pa]; NaN, with a reason, where it did not break.
+  Real peak(const Outcome& outcome, std::string& trouble) const {
+    const auto force = outcome.column("force", "force");
+    const auto most = std::max_element(force.begin(), force.end());
+    if (!outcome.is_done())
+      trouble = outcome.reason;
+    else if (most == force.end() || !(*most > 0) || std::next(most) == force.end())
+      trouble = "the force has no peak";
+    else
+      return *most / section(plan_.through_centres);
+    return std::numeric_limits<Real>::quiet_NaN();
+  }
+
+  void find_strength(const std::string& criterion) {
+    const auto deck = desk_.write(criterion + ".xml", strength_deck(plan_.decks, plugin_of(criterion)));
+    Strength& found = found_.strengths.emplace_back(Strength{criterion});
+    std::vector<Real> tries;
+    for (const Packed& packing : found_.packings) tries.push_back(first_try(criterion, packing));
+    const std::vector<Real> peaks = peaks_with(criterion, deck, tries, found.trouble);
+    for (std::size_t k = 0; k < peaks.size(); ++k)
+      if (std::isfinite(peaks[k])) found.wanted.push_back(tries[k] * *plan_.material.strength / peaks[k]);
+    if (found.wanted.empty()) {
+      desk_.log.warn(fmt::format("{}: no strength: {}", criterion, found.trouble));
+      return;
+    }
+    found.trouble.clear();
+    found.value = rounded(spread_of(found.wanted).mean, digits_);
+    std::string ignored;
+    for (const Real one : peaks_with(criterion, deck, std::vector<Real>(found_.packings.size(), found.value), ignored))
+      if (std::isfinite(one)) found.confirmed.push_back(one);
+    desk_.log.say(fmt::format("found: {} strength {}; with {:.4g} MPa the solid carries {}", criterion,
+                              stress_text(found.wanted), 1e-6 * found.value, stress_text(found.confirmed)));
+  }
+
+  std::vector<Real> peaks_with(const std::string& criterion, const std::filesystem::path& deck,
+                               const std::vector<Real>& strengths, std::string& trouble) {
+    std::vector<Errand> errands;
+    for (std::size_t k = 0; k < strengths.size(); ++k)
+      errands.push_back(strength_errand(criterion, deck, found_.packings[k], strengths[k]));
+    std::vector<Real> peaks;
+    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      std::string why;
+      peaks.push_back(peak(outcomes[k], why));
+      if (why.empty()) continue;
+      desk_.log.warn(fmt::format("{}: {}", errands[k].name, why));
+      trouble = why;
+    }
+    return peaks;
+  }
+
+  const Plan& plan_;
+  const StudyDesk& desk_;
+  Location poisson_at_;
+  Found found_;
+  std::filesystem::path elastic_deck_;
+  std::map<std::pair<std::size_t, Real>, Elastic> elastic_;  ///< by sample and radius ratio
+};
+
+}  // namespace beadwork::calibration

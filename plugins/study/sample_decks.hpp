@@ -1,0 +1,140 @@
+#pragma once
+// The decks of the samples that a calibration tests: ordinary decks, which anybody can look at and run by hand.
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "core/base/types.hpp"
+
+namespace beadwork::calibration {
+
+/// What stands in the decks as values that are there without --set.
+struct SampleDecks {
+  bool is_cylinder;
+  std::int64_t elements;
+  Real spread, coordination;
+  std::string counted;  ///< whose contacts: all or bulk
+  std::string by;  ///< the mover: static or verlet
+};
+
+inline const char* deck_head(bool is_part) {
+  return is_part ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Made by beadwork calibrate; included by the decks "
+                   "beside it. -->\n<scene>\n"
+                 : "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Made by beadwork calibrate. -->\n";
+}
+
+/// Sizes: of a box with side a, or of a cylinder with radius a/2 and twice that wide as high. As many elements of mean
+/// radius R as fill 0.64 of it.
+inline std::string size_deck(const SampleDecks& d) {
+  const std::string side = d.is_cylinder ? "(elements*8/(3*0.64))^(1/3)*R" : "(elements*4*pi/(3*0.64))^(1/3)*R";
+  return fmt::format(
+      R"({}  <parameter name="elements" value="{}"/>
+  <parameter name="R" value="1 mm"/>                  <!-- mean radius -->
+  <parameter name="a" value="${{{}}}"/>  <!-- {} -->
+  <parameter name="length" value="${{{}}}"/>          <!-- along z -->
+</scene>
+)",
+      deck_head(true), d.elements, side, d.is_cylinder ? "diameter" : "side", d.is_cylinder ? "2*a" : "a");
+}
+
+inline std::string packing_deck(const SampleDecks& d) {
+  const std::string shape = d.is_cylinder
+                                ? R"(cylinder-radius="${a/2}" from="${a/2} ${a/2} 0 mm" to="${a/2} ${a/2} ${length}")"
+                                : R"(box="${a} ${a} ${a}")";
+  return fmt::format(
+      R"({}<scene name="packing" seed="${{seed}}">
+  <parameter name="seed" value="1"/>
+  <include file="size.xml"/>
+  <fill>
+    <free-filling   set="solid" {} count="${{elements}}" spread="{}" density="1000 kg/m^3"/>
+    <forced-filling set="solid" coordination="{}" counted="{}"/>
+    <relaxation     set="solid" overlap="1e-7"/>
+  </fill>
+  <move><verlet time-step="1 s" until="1"/></move>
+  <watch><snapshot every="1"/></watch>
+</scene>
+)",
+      deck_head(false), shape, d.spread, d.coordination, d.counted);
+}
+
+/// A sample between two grips one element deep: stretched along an axis, its sides free.
+inline std::string sample_deck(const SampleDecks& d, const std::string& packing) {
+  const std::string core =
+      d.is_cylinder ? "(x - a/2)^2 + (y - a/2)^2 &lt; (a/2 - 3*R)^2 and z > 3*R and z &lt; length - 3*R"
+                    : "x > 3*R and x &lt; a - 3*R and y > 3*R and y &lt; a - 3*R and z > 3*R and z &lt; a - 3*R";
+  const std::string volume = d.is_cylinder ? "pi*(a/2 - 3*R)^2*(length - 6*R)" : "(a - 6*R)^3";
+  return fmt::format(
+      R"({}  <include file="size.xml"/>
+  <parameter name="packing" value="{}"/>
+  <parameter name="axis"   value="{}"/>
+  <parameter name="others" value="{}"/>
+  <parameter name="turns"  value="{}"/>               <!-- about the axis -->
+  <parameter name="nx" value="{}"/>
+  <parameter name="ny" value="0"/>
+  <parameter name="nz" value="{}"/>
+  <parameter name="extent" value="${{{}}}"/>          <!-- along the axis -->
+  <parameter name="young"  value="1 GPa"/>            <!-- of the bonds, as all that follows -->
+  <parameter name="poisson" value="0.3"/>
+  <parameter name="radius-ratio" value="0.3"/>
+  <fill>
+    <read-packing set="solid" file="${{packing}}" density="1000 kg/m^3"/>
+    <region set="near" where="nx*x + ny*y + nz*z &lt; 2*R"/>
+    <region set="far"  where="nx*x + ny*y + nz*z > extent - 2*R"/>
+    <region set="core" where="{}"/>
+  </fill>
+  <bond><cohesive-beam name="beam" between="solid solid" young="${{young}}" poisson="${{poisson}}" radius-ratio="${{radius-ratio}}"/></bond>
+  <load>
+    <hold set="near" axes="${{axis}}"/>
+    <hold set="near" axes="${{others}} ${{turns}}" grip="mean"/>
+  </load>
+  <watch>
+    <force-curve of="far" axis="${{axis}}" every="${{every}}" title="Tension"/>
+    <stress-strain of="core" volume="${{{}}}" every="${{every}}" name="core"/>
+    <sensor field="position" component="${{axis}}" set="near" every="${{every}}" name="near"/>
+    <sensor field="position" component="${{axis}}" set="far"  every="${{every}}" name="far"/>
+  </watch>
+</scene>
+)",
+      deck_head(true), packing, d.is_cylinder ? "z" : "x", d.is_cylinder ? "x y" : "y z", d.is_cylinder ? "rz" : "rx",
+      d.is_cylinder ? "0" : "1", d.is_cylinder ? "1" : "0", d.is_cylinder ? "length" : "a", core, volume);
+}
+
+/// `time`: over which it is stretched by `stretch`, and half as long again kept there, to come to rest.
+inline std::string elastic_deck(const SampleDecks& d) {
+  const std::string mover = d.by == "static" ? R"(<static increment="${1.5*time}" until="${1.5*time}"/>)"
+                                             : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)";
+  return fmt::format(
+      R"({}<scene name="elastic">
+  <include file="sample.xml"/>
+  <parameter name="stretch" value="1e-3 mm"/>
+  <parameter name="time"    value="1 ms"/>
+  <parameter name="every"   value="{}"/>
+  <load><pull set="far" axis="${{axis}}" table="0 s 0 m/s, ${{time/2}} ${{2*stretch/time}}, ${{time}} 0 m/s"/></load>
+  <move>{}</move>
+</scene>
+)",
+      deck_head(false), d.by == "static" ? 1 : 100, mover);
+}
+
+/// Stretched until it breaks. `criterion`: the plugin in <fail>.
+inline std::string strength_deck(const SampleDecks& d, const std::string& criterion) {
+  return fmt::format(
+      R"({}<scene name="strength">
+  <include file="sample.xml"/>
+  <parameter name="strength" value="1 MPa"/>
+  <parameter name="stretch"  value="1 mm"/>           <!-- in which it should have broken -->
+  <parameter name="time"     value="1 ms"/>           <!-- that this takes -->
+  <parameter name="every"    value="{}"/>
+  <load><pull set="far" axis="${{axis}}" velocity="${{stretch/time}}"{}/></load>
+  <fail><{} strength="${{strength}}"/></fail>
+  <move>{}</move>
+</scene>
+)",
+      deck_head(false), d.by == "static" ? 1 : 20, d.by == "static" ? "" : R"( rise="${time/20}")", criterion,
+      d.by == "static"
+          ? R"(<static increment="${time/100}" until="${time} or force of far &lt; 50 percent of its maximum"/>)"
+          : R"(<verlet bond-damping="0.1" until="${time} or force of far &lt; 50 percent of its maximum"/>)");
+}
+
+}  // namespace beadwork::calibration

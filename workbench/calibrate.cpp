@@ -1,0 +1,173 @@
+// `calibrate`: conducts the study of a deck.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "core/io/own_folder.hpp"
+#include "core/loop/bounded_json.hpp"
+#include "core/loop/json_text.hpp"
+#include "core/loop/scene_runner.hpp"
+#include "core/loop/summary.hpp"
+#include "core/version.hpp"
+#include "workbench/progress.hpp"
+#include "workbench/report/report.hpp"
+#include "workbench/signals.hpp"
+#include "workbench/terminal.hpp"
+#include "workbench/verbs.hpp"
+
+namespace beadwork {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct CalibrateArguments {
+  DeckArguments deck;
+  std::string out, seeds, elements, density;  // as they stand on the command line
+  Words words;
+  Shares shares;
+};
+
+DeckRequest request_of(const CalibrateArguments& arguments) {
+  DeckRequest request = arguments.deck.request();
+  const auto give = [&](const char* name, const std::string& value) {
+    if (!value.empty()) request.attributes.push_back({"calibration", name, value});
+  };
+  give("seeds", arguments.seeds);
+  give("elements", arguments.elements);
+  give("density", arguments.density);
+  return request;
+}
+
+// The folder of a study: what is written into it, and how it went.
+class Office {
+ public:
+  Office(const CalibrateArguments& arguments, const Loaded& loaded)
+      : scene_(*loaded.scene), folder_(arguments.out, Manifest::Of::study) {
+    summary_ = {{"name", scene_.name}, {"study", scene_.studies.front()->tag()}, {"status", "running"},
+                {"exit_reason", ""},   {"deck_sha256", scene_.deck_sha256},      {"version", version}};
+    write("resolved.xml", scene_.resolved);
+  }
+
+  fs::path write(const std::string& name, std::string_view text) {
+    const fs::path file = folder_.claim(name);
+    fs::create_directories(file.parent_path());
+    write_atomically(file, text);
+    return file;
+  }
+
+  void curve(const std::string& name, const CurvePlan& plan, const std::vector<std::vector<Real>>& rows) {
+    std::string text;
+    for (const auto& [column, unit] : plan.columns)
+      text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column, unit);
+    text += "\n";
+    for (const auto& row : rows) text += fmt::format("{}\n", fmt::join(row, ","));
+    write("curves/" + name + ".csv", text);
+    write("curves/" + name + ".json", curve_json(plan));
+  }
+
+  void take_result(const std::string& json) { summary_["result"] = bounded_json(json); }
+
+  void close(const std::string& status, ExitCode code, const std::string& reason, const SceneRunner& runner) {
+    summary_["status"] = status;
+    summary_["exit_reason"] = reason;
+    summary_["exit_code"] = static_cast<int>(code);
+    summary_["runs"] = {{"run", runner.runs()}, {"known", runner.known()}};
+    summary_["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    write("summary.json", json_text(summary_, 2) + "\n");
+  }
+
+  const fs::path& root() const { return folder_.root(); }
+
+ private:
+  const Scene& scene_;
+  OwnFolder folder_;
+  Json summary_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+};
+
+SceneRunnerOptions runner_options(const CalibrateArguments& arguments, Progress& progress, const Log& log) {
+  SceneRunnerOptions options;
+  options.program = fs::canonical("/proc/self/exe");
+  options.folder = fs::absolute(arguments.out) / "runs";
+  options.command = command_line(arguments.words);
+  for (const std::string& library : arguments.deck.libraries) options.libraries.push_back(fs::absolute(library));
+  options.shares = arguments.shares;
+  options.interrupt = &interrupted;
+  options.log = log;
+  options.progress = [&](const Headway& headway) { progress.show(headway); };
+  return options;
+}
+
+int calibrate(const CalibrateArguments& arguments) {
+  heed_signals();
+  const Loaded loaded = load_checked(request_of(arguments));
+  if (loaded.scene->studies.empty())
+    refuse(
+        loaded.deck->root->at,
+        fmt::format("this deck has no <study>: it is a scene. Do: beadwork run {} --out FOLDER", arguments.deck.path));
+  Study& study = *loaded.scene->studies.front();
+  Office office(arguments, loaded);
+  Progress progress([](const std::string& line) { say("{}\n", line), std::fflush(stdout); });
+  const auto tell = [&](const std::string& line) {
+    progress.hide();
+    say("{}\n", line);
+    std::fflush(stdout);
+  };
+  const Log log(tell, [&](const std::string& line) {
+    progress.hide();
+    say_error("warning: {}\n", line);
+  });
+  SceneRunner runner(runner_options(arguments, progress, log), loaded.catalogue);
+  const StudyDesk desk{
+      runner,
+      fs::absolute(office.root()),
+      log,
+      fmt::format("beadwork {}, deck {}, SHA-256 {}", version, fs::path(arguments.deck.path).filename().string(),
+                  loaded.scene->deck_sha256),
+      [&](const std::string& name, std::string_view text) { return fs::absolute(office.write(name, text)); },
+      [&](const std::string& name, const CurvePlan& plan, const auto& rows) { office.curve(name, plan, rows); },
+      [&](const std::string& json) { office.take_result(json); }};
+  try {
+    study.conduct(desk);
+  } catch (const Fault& fault) {
+    progress.hide();
+    office.close(fault.code() == ExitCode::interrupted ? "interrupted" : "failed", fault.code(), fault.what(), runner);
+    throw;
+  }
+  progress.hide();
+  office.close("done", ExitCode::done, "done", runner);
+  say("{} scenes run, {} known already\n{}\n", runner.runs(), runner.known(), write_study_report(office.root()));
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words) {
+  CLI::App* verb = app.add_subcommand(
+      "calibrate", "Finds the parameters of bonds whose solid has the stiffness and strength of a material");
+  verb->footer(
+      "Example: beadwork calibrate xml-cases/calibration/epoxy.xml --out out/epoxy --seeds 3\n"
+      "The result is a file of parameters, out/epoxy/epoxy.calibration.xml, that decks include. The same command again "
+      "runs nothing that has been run; one that was stopped goes on.");
+  auto arguments = std::make_shared<CalibrateArguments>();
+  arguments->words = words;
+  arguments->deck.add_to(*verb);
+  verb->add_option("--out", arguments->out, "Folder for the results, and for the runs that they come of")->required();
+  verb->add_option("--seeds", arguments->seeds, "Packings, in the place of 'seeds' of the deck");
+  verb->add_option("--elements", arguments->elements, "Elements of a sample, in the place of 'elements' of the deck");
+  verb->add_option("--density", arguments->density,
+                   "Of the material, such as '1200 kg/m^3', in the place of the deck's");
+  verb->add_option("--jobs", arguments->shares.jobs, "Runs at once; where absent as many as there are processors for")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option(
+          "--threads", arguments->shares.threads,
+          "Threads of each run; where absent the processors that it may use, shared out among the runs at once")
+      ->check(CLI::Range(1, 1024));
+  verb->callback([&chosen, arguments] { chosen = [arguments] { return calibrate(*arguments); }; });
+}
+
+}  // namespace beadwork

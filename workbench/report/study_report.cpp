@@ -1,0 +1,36 @@
+// The report of a study: what it found, and the curves that it is read from.
+
+#include "core/io/file.hpp"
+#include "core/io/manifest.hpp"
+#include "core/loop/bounded_json.hpp"
+#include "workbench/report/report.hpp"
+#include "workbench/report/sections.hpp"
+#include "workbench/report/text.hpp"
+
+namespace beadwork {
+namespace report {
+
+namespace {
+
+std::string study_page(const std::filesystem::path& folder) {
+  const Run study = open_curves(folder);
+  const Json result = study.summary.contains("result") ? study.summary["result"] : Json::object();
+  const std::string title = escaped(study.scene.empty() ? name_of_folder(folder) : study.scene);
+  const std::string kind = escaped(text_of(study.summary, "study", "study"));
+  std::string notes;
+  if (study.status != "done")
+    notes = section("How it ended", "<p>" + escaped(text_of(study.summary, "exit_reason")) + "</p>");
+  return page_with(title + " – Beadwork", "<h1>" + title + "</h1><p>" + kind + " " + badge(study.status) + "</p>",
+                   notes + section("Result", result.empty() ? "" : facts_table(result)) + curves(study, {}));
+}
+
+}  // namespace
+}  // namespace report
+
+bool is_study(const std::filesystem::path& folder) { return bounded_object(folder / "summary.json").contains("study"); }
+
+std::string write_study_report(const std::filesystem::path& folder) {
+  return report::put_page(folder, Manifest::Of::study, report::study_page(folder));
+}
+
+}  // namespace beadwork
