@@ -45,7 +45,8 @@ T damage(const Softening<T>& law, Same<T> history) {
 /// Pull between the faces, per area [Pa]. Negative in compression, which is elastic whatever the damage.
 template <class T>
 [[gnu::always_inline]] inline T traction(const Softening<T>& law, Same<T> opening, Same<T> history) {
-  const T left = integrity(law, max(history, opening));
+  // where they are equal the opening goes on: the slope is that of loading
+  const T left = integrity(law, max(opening, history));
   return select(opening < T(0), T(1), left) * law.stiffness * opening;
 }
 

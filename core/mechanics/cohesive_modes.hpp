@@ -59,8 +59,8 @@ struct IndependentModes {
   template <class T>
   [[gnu::always_inline]] Openings<T> next(const Openings<T>& opening, const Openings<T>& history) const {
     const auto done = failed(history);
-    return {select(done, history.normal, max(history.normal, opening.normal)),
-            select(done, history.shear, max(history.shear, opening.shear))};
+    return {select(done, history.normal, max(opening.normal, history.normal)),
+            select(done, history.shear, max(opening.shear, history.shear))};
   }
 
   /// Share of the stiffness that acts in each mode; the history includes the present opening. `done`: the contact had

@@ -70,10 +70,11 @@ const Vector& Newton::forces() {
   return model_.forces();
 }
 
-NewtonResult Newton::go(Real time) {
+NewtonResult Newton::go(Real time, Manner manner) {
+  const bool careful = manner == Manner::careful;
+  const Slope slope = careful ? Slope::secant : limits_.slope;
   NewtonResult result;
   model_.begin_trial(time);
-  Slope slope = limits_.slope;
   Vector f = forces();
   if (!f.allFinite()) return result.reason = Reason::no_number, result;
   const Vector at_start = f;
@@ -82,9 +83,9 @@ NewtonResult Newton::go(Real time) {
   Real before = loads, least = -1;
   int growths = 0, with_this_factor = 0;
   Acceleration acceleration;
-  bool forced = stale_ || !system_.is_factored();
+  bool forced = careful || stale_ || !system_.is_factored();
 
-  for (result.iterations = 1; result.iterations <= limits_.iterations; ++result.iterations) {
+  for (result.iterations = 1; result.iterations <= (careful ? 8 : 1) * limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
     if (forced) {
       const Factored factored = factor(slope);
@@ -97,7 +98,7 @@ NewtonResult Newton::go(Real time) {
       }
     }
     if (!solve(f, model_.lacking(), du)) return result.reason = Reason::linear_solver, result;
-    du = acceleration.step(du);
+    if (!careful) du = acceleration.step(du);
     model_.move(du);
     moved += du;
     const Vector f_before = f;
@@ -116,12 +117,11 @@ NewtonResult Newton::go(Real time) {
     const bool spent = std::abs(unbalanced.dot(du)) <= limits_.tolerance * energy_reference;
     if (balanced && ((still && spent) || left <= 1e-3 * limits_.tolerance * result.reference + floor)) return result;
 
-    if (result.iterations > 1 && left > before && left > 10 * floor) {
-      if (++growths >= 6) return result.reason = Reason::grows, result;
-      if (growths >= 4) slope = Slope::secant;
-    }
+    if (!careful && result.iterations > 1 && left > before && left > 10 * floor && ++growths >= 6)
+      return result.reason = Reason::grows, result;
     if (least < 0 || left < least) least = left;
-    forced = ++with_this_factor >= patience || left > slow * std::max(least, limits_.tolerance * result.reference);
+    forced = careful || ++with_this_factor >= patience ||
+             left > slow * std::max(least, limits_.tolerance * result.reference);
     before = left;
   }
   --result.iterations;

@@ -29,6 +29,10 @@ struct NewtonResult {
   bool converged() const { return reason == Reason::converged; }
 };
 
+/// quick: the stiffness of the deck's choice, kept while it serves; careful: a new secant stiffness at each iteration,
+/// which finds the way where bonds open and close by turns.
+enum class Manner { quick, careful };
+
 /// What solving has cost so far.
 struct NewtonCosts {
   std::int64_t iterations = 0, factors = 0, solves = 0;
@@ -42,7 +46,7 @@ class Newton {
 
   /// Brings the model from its last accepted state to the equilibrium at this time; the trial state is left as it
   /// stands at the end.
-  NewtonResult go(Real time);
+  NewtonResult go(Real time, Manner manner = Manner::quick);
   /// The equilibrium at which `gradient` times what has moved since the last accepted state is `value`: loads go as far
   /// as that takes, backwards too.
   NewtonResult go_by(const Vector& gradient, Real value);

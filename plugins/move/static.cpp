@@ -112,6 +112,7 @@ class Static final : public Mover {
   Keeps<Real> released{this, {"released", On::scene, "J", "Energy set free by breaks on the way to a new equilibrium"}};
   Keeps<Real> spent{this, {"iterations", On::scene, "1", "Iterations so far"}};
   Keeps<Real> cuts{this, {"cuts", On::scene, "1", "Increments that were cut so far"}};
+  Keeps<Real> carefully{this, {"carefully", On::scene, "1", "Increments that were tried with a new secant each time"}};
   Keeps<Real> worst{this, {"worst-residual", On::scene, "1", "Largest residual of an accepted increment"}};
   Keeps<Real> events{this, {"events", On::scene, "1", "Equilibria that were sought because something broke"}};
 
@@ -181,6 +182,7 @@ class Static final : public Mover {
     return {{"unknowns", static_cast<Real>(model_->supports().fixed.size())},
             {"iterations", spent[0]},
             {"cuts", cuts[0]},
+            {"careful_increments", carefully[0]},
             {"events", events[0]},
             {"worst_residual", worst[0]},
             {"factors", static_cast<Real>(costs.factors)},
@@ -305,8 +307,14 @@ class Static final : public Mover {
 
   NewtonResult go(Workings& w, Real to) {
     w.moment().time_step = to - w.moment().time;
-    const NewtonResult result = newton_->go(to);
+    NewtonResult result = newton_->go(to);
     spent[0] += result.iterations;
+    if (result.converged() || result.reason == Reason::singular) return result;
+    model_->give_up();
+    result = newton_->go(to, Manner::careful);
+    spent[0] += result.iterations;
+    carefully[0] += 1;
+    newton_->forget_factor();
     return result;
   }
 

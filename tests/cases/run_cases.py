@@ -34,7 +34,7 @@ HURRY = {
     "glued-block": (600, ["v=20 m/s", "count=800"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
     "notched-bar/static": (40, ["strength=30 MPa", "count=600", "increment=2 um"]),
-    "curved-beam": (12, ["increments=24"]),
+    "curved-beam": (6, []),
     "roll-up": (16, []),
     "notched-bar/rdef": (600, ["v=40 m/s", "strength=2 MPa", "count=600"]),
 }
