@@ -48,7 +48,7 @@ class Calibration final : public Study {
                              {.name = "counted",
                               .doc = "Whose contacts: of all elements, or of those farther than three mean radii from "
                                      "walls",
-                              .fallback = "all",
+                              .fallback = "bulk",
                               .choices = {"all", "bulk"}}};
   Param<Real> bond_poisson{this,
                            {.name = "bond-poisson",
@@ -73,11 +73,13 @@ class Calibration final : public Study {
                                                    "<bond-stress> by their measures, and of <virial-stress>",
                                             .fallback = "bbf-axial-bending rdef",
                                             .choices = {"bbf-axial", "bbf-axial-bending", "bbf-principal", "rdef"}}};
-  Param<std::string> by{this,
-                        {.name = "by",
-                         .doc = "How the samples are stretched: with inertia, slowly (verlet)",
-                         .fallback = "verlet",
-                         .choices = {"verlet"}}};
+  Param<std::string> by{
+      this,
+      {.name = "by",
+       .doc = "Mover of the samples: static finds equilibria, and breaks one bond or element after the "
+              "other; verlet pulls slowly, with inertia",
+       .fallback = "static",
+       .choices = {"static", "verlet"}}};
 
   void check(Complaints& complaints) const override {
     if (name.given() && !is_plain_name(*name))

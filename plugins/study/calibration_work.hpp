@@ -75,6 +75,8 @@ class Work {
     return plan_.decks.is_cylinder ? 2 * std::cbrt(n * 8 / (3 * phi)) * radius
                                    : std::cbrt(n * 4 * std::numbers::pi / (3 * phi)) * radius;
   }
+  // Of elastic samples: small, so that they are linear; above what waves leave behind where there is inertia.
+  Real strain() const { return plan_.decks.by == "static" ? 1e-6 : 1e-4; }
   // Of the sample's waves along its length, with the decks' density.
   Real transit() const { return extent() / std::sqrt(plan_.material.young / 640); }
 
@@ -94,7 +96,7 @@ class Work {
   Errand elastic_errand(const Packed& packing, Real ratio, Real young, const std::string& axis) const {
     Errand errand{fmt::format("elastic-{},seed={},radius-ratio={}", axis, packing.seed, format_number(ratio)),
                   elastic_deck_, sample_of(packing, ratio, young)};
-    add(errand.overrides, {{"stretch", length_text(strain_ * extent())}, {"time", time_text(transits_ * transit())}});
+    add(errand.overrides, {{"stretch", length_text(strain() * extent())}, {"time", time_text(transits_ * transit())}});
     if (axis != first_axis()) add(errand.overrides, turned_to(axis));
     return errand;
   }
@@ -319,7 +321,9 @@ class Work {
       return;
     }
     found.trouble.clear();
-    found.value = rounded(spread_of(found.wanted).mean, digits_);
+    Real inverse = 0;  // the mean of the peaks is to be what is wanted
+    for (const Real one : found.wanted) inverse += 1 / one / static_cast<Real>(found.wanted.size());
+    found.value = rounded(1 / inverse, digits_);
     std::string ignored;
     for (const Real one : peaks_with(criterion, deck, std::vector<Real>(found_.packings.size(), found.value), ignored))
       if (std::isfinite(one)) found.confirmed.push_back(one);

@@ -15,7 +15,7 @@ struct SampleDecks {
   std::int64_t elements;
   Real spread, coordination;
   std::string counted;  ///< whose contacts: all or bulk
-  std::string by;  ///< the mover: static or verlet
+  std::string by;       ///< the mover: static or verlet
 };
 
 inline const char* deck_head(bool is_part) {
@@ -100,25 +100,30 @@ inline std::string sample_deck(const SampleDecks& d, const std::string& packing)
       d.is_cylinder ? "0" : "1", d.is_cylinder ? "1" : "0", d.is_cylinder ? "length" : "a", core, volume);
 }
 
-/// `time`: over which it is stretched by `stretch`, and half as long again kept there, to come to rest.
+/// Stretched by `stretch`: at once to the equilibrium; or, with inertia, over `time`, and half as long again kept there,
+/// to come to rest.
 inline std::string elastic_deck(const SampleDecks& d) {
-  const std::string mover = d.by == "static" ? R"(<static increment="${1.5*time}" until="${1.5*time}"/>)"
-                                             : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)";
+  const bool is_static = d.by == "static";
   return fmt::format(
       R"({}<scene name="elastic">
   <include file="sample.xml"/>
-  <parameter name="stretch" value="1e-3 mm"/>
+  <parameter name="stretch" value="1e-4 mm"/>
   <parameter name="time"    value="1 ms"/>
   <parameter name="every"   value="{}"/>
-  <load><pull set="far" axis="${{axis}}" table="0 s 0 m/s, ${{time/2}} ${{2*stretch/time}}, ${{time}} 0 m/s"/></load>
+  <load><pull set="far" axis="${{axis}}" {}/></load>
   <move>{}</move>
 </scene>
 )",
-      deck_head(false), d.by == "static" ? 1 : 100, mover);
+      deck_head(false), is_static ? 1 : 100,
+      is_static ? R"(velocity="${stretch/time}")" : R"(table="0 s 0 m/s, ${time/2} ${2*stretch/time}, ${time} 0 m/s")",
+      is_static ? R"(<static increment="${stretch}" until="${stretch}"/>)"
+                : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)");
 }
 
-/// Stretched until it breaks. `criterion`: the plugin in <fail>.
+/// Stretched until it breaks. `criterion`: the plugin in <fail>. Without inertia one breaks after the other, so that a
+/// small fall tells that the peak is behind.
 inline std::string strength_deck(const SampleDecks& d, const std::string& criterion) {
+  const bool is_static = d.by == "static";
   return fmt::format(
       R"({}<scene name="strength">
   <include file="sample.xml"/>
@@ -131,9 +136,9 @@ inline std::string strength_deck(const SampleDecks& d, const std::string& criter
   <move>{}</move>
 </scene>
 )",
-      deck_head(false), d.by == "static" ? 1 : 20, d.by == "static" ? "" : R"( rise="${time/20}")", criterion,
-      d.by == "static"
-          ? R"(<static increment="${time/100}" until="${time} or force of far &lt; 50 percent of its maximum"/>)"
+      deck_head(false), is_static ? 1 : 20, is_static ? "" : R"( rise="${time/20}")", criterion,
+      is_static
+          ? R"(<static increment="${stretch/40}" free="pin" until="${stretch} or force of far &lt; 70 percent of its maximum"/>)"
           : R"(<verlet bond-damping="0.1" until="${time} or force of far &lt; 50 percent of its maximum"/>)");
 }
 
