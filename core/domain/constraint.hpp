@@ -41,6 +41,8 @@ struct Constraint {
   Kept
       reaction;  ///< sum of the forces that keep it, or their torque about the axis, at the last accepted step [N, N.m]
   Kept work;     ///< of these forces so far [J]
+  Kept
+      pinned;  ///< of a mean: row of the element by which a static mover holds it while it eliminates, and one; 0: none
 
   /// Throws PhysicsFailure, with the load's place in the deck, if the motion fails or is no number.
   PrescribedMotion at(Real time) const;

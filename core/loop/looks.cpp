@@ -80,10 +80,11 @@ std::vector<Mark> Looks::awaited() const {
 
 Real Looks::next_moment(Real until) const {
   const Real now = state_.moment.time, step = until - now;
-  Real first = now + 1.5 * step;
+  const Real soon = now + 1.6 * step;  // a mark half a step ahead counts as reached, also where it is rounded
+  Real first = soon;
   for (const Mark& mark : awaited())
     if (const auto time = mark.time(state_.moment, state_.held(), first)) first = std::min(first, *time);
-  return first <= until ? first : first < now + 1.5 * step ? now + 0.5 * (first - now) : until;
+  return first <= until ? first : first < soon ? now + 0.5 * (first - now) : until;
 }
 
 void Looks::tell_of_missed_moments(const std::string& instead) const {

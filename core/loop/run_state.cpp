@@ -62,6 +62,8 @@ void RunState::keep_constraints() {
         for (std::size_t axis = 0; axis < 3; ++axis)
           c.body->forces[axis].stand_in(list, fmt::format("force-{}", "xyz"[axis]), "N",
                                         "Force that keeps a body that turns", row);
+      if (c.grip == Grip::mean)
+        c.pinned.stand_in(list, "pinned", "1", "Element by which a static mover holds a mean, counted from 1", row);
       c.work.stand_in(list, "work", "J", "Work of a constraint", row++);
     }
 }

@@ -24,7 +24,7 @@ class Multifrontal final : public LinearSolver {
     mumps_.comm_fortran = use_whole_communicator;
     call(-1);
     for (int k = 0; k < 4; ++k) mumps_.icntl[k] = k < 3 ? -1 : 0;  // it says nothing by itself
-    control(7) = 5;                                                // order by METIS
+    control(7) = 4;                                                // order by PORD
     control(14) = 40;                                              // percent of room beyond the estimate
     control(24) = 1;                                               // finds pivots that are as good as nothing
   }

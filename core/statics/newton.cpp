@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/statics/acceleration.hpp"
+
 namespace beadwork {
 
 namespace {
@@ -20,8 +22,10 @@ class Timer {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-// An iteration that leaves more than this of what was unbalanced has a stiffness that is too far off.
-constexpr Real slow = 0.2;
+// A factor is kept for so many iterations, and not after one that leaves more than this of the least that was left: then
+// the stiffness is too far off.
+constexpr int patience = 10;
+constexpr Real slow = 2;
 
 }  // namespace
 
@@ -68,8 +72,9 @@ NewtonResult Newton::go(Real time) {
   if (!f.allFinite()) return result.reason = Reason::no_number, result;
   const Vector at_start = f;
   Vector unbalanced, du, moved = Vector::Zero(f.size());
-  Real before = -1, energy_reference = 0;
-  int growths = 0;
+  Real before = -1, least = -1, energy_reference = 0;
+  int growths = 0, with_this_factor = 0;
+  Acceleration acceleration;
   bool forced = stale_ || !system_.is_factored();
 
   for (result.iterations = 1; result.iterations <= limits_.iterations; ++result.iterations) {
@@ -77,6 +82,8 @@ NewtonResult Newton::go(Real time) {
     if (forced) {
       const Factored factored = factor(slope);
       forced = false;
+      with_this_factor = 0;
+      acceleration.forget();
       if (!factored.whole || factored.weakest >= 0) {
         result.weakest = factored.weakest;
         return result.reason = Reason::singular, result;
@@ -86,6 +93,7 @@ NewtonResult Newton::go(Real time) {
     if (before < 0) before = model_.supports().unbalanced(f).norm();
     const Real unbalanced_at_start = result.iterations == 1 ? before : 0;
     if (!solve(f, lacking, du)) return result.reason = Reason::linear_solver, result;
+    du = acceleration.step(du);
     model_.move(du);
     moved += du;
     const Vector f_before = f;
@@ -107,10 +115,11 @@ NewtonResult Newton::go(Real time) {
     if (balanced && ((still && spent) || left <= 1e-3 * limits_.tolerance * result.reference + floor)) return result;
 
     if (result.iterations > 1 && left > before && left > 10 * floor) {
-      if (++growths >= 3) return result.reason = Reason::grows, result;
-      if (growths >= 2) slope = Slope::secant;
+      if (++growths >= 6) return result.reason = Reason::grows, result;
+      if (growths >= 4) slope = Slope::secant;
     }
-    forced = left > slow * (result.iterations == 1 ? result.reference : before) && left > floor;
+    if (least < 0 || left < least) least = left;
+    forced = ++with_this_factor >= patience || left > slow * std::max(least, limits_.tolerance * result.reference);
     before = left;
   }
   --result.iterations;

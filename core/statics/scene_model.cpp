@@ -85,8 +85,10 @@ const Vector& SceneModel::forces() {
 
 // Places are known to the last digit of the largest of them, and so are elongations.
 Real SceneModel::noise() const {
-  return 4 * std::numeric_limits<Real>::epsilon() * stiffness_.largest() * std::max(extent_, length_) *
-         std::sqrt(static_cast<Real>(count_));
+  const SymmetricMatrix& k = stiffness_.matrix();
+  Real square = 0;
+  for (int u = 0; u < k.size(); ++u) square += k.diagonal(u) * k.diagonal(u);
+  return std::numeric_limits<Real>::epsilon() * std::max(extent_, length_) * std::sqrt(square);
 }
 
 const SymmetricMatrix& SceneModel::stiffness(Slope slope) {

@@ -15,6 +15,7 @@ struct StaticRows {
   View<Quat> orientation;  ///< with spin and torque: null where nothing turns
   View<Vec3> spin, torque;
   View<const Real> radius;
+  View<Real> held;  ///< bits of the axes along and about which a free body is held where it is
 };
 
 class SceneModel final : public StaticModel {
@@ -36,6 +37,8 @@ class SceneModel final : public StaticModel {
   void react(bool works);
   /// Supports as they follow from what hangs together now. Free bodies are held where they are if `pin`, else told.
   std::vector<FreeBody> support(bool pin);
+  /// The same supports, after a restart: free bodies are held where they were.
+  void support_as_before();
   /// Elements that nothing binds, which are held where they are.
   Index loose() const { return loose_; }
   /// The pairs that bonds and contacts make have changed since the stiffness got its pattern.
@@ -51,10 +54,13 @@ class SceneModel final : public StaticModel {
   int unknown(Index element, int axis) const { return per_element() * element + axis; }
   Real unit(int axis) const { return axis < 3 ? 1 : length_; }
   void note_accepted();
+  void begin_support(const std::vector<Index>& body);
   void fix_prescribed();
+  void fix_held();
   void fix_loose();
   void pin(const FreeBody& body);
-  void pin_means(const std::vector<FreeBody>& without_means);
+  void pin_means();
+  void choose_pins(const std::vector<Constraint*>& means, const std::vector<std::vector<int>>& choices);
   void lacking_body(const Constraint& c, std::size_t number, Vector& lack) const;
   Real gone(Index row, int axis) const;
   void react(Constraint& c, const Set& set, bool works);
@@ -69,7 +75,8 @@ class SceneModel final : public StaticModel {
   Real accepted_time_ = 0;
   std::vector<Vec3> places_, turned_;  ///< of the accepted state; turned since [rad]
   std::vector<Quat> orientations_;
-  std::vector<Set> sets_;  ///< of the constraints, without what has broken loose of a mean
+  std::vector<Set> sets_;         ///< of the constraints, without what has broken loose of a mean
+  std::vector<int> mean_number_;  ///< of the constraints: which of the means of the supports; -1: none
   Supports supports_;
   StiffnessMatrix stiffness_;
   std::vector<std::pair<Index, Index>> pairs_;

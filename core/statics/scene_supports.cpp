@@ -33,37 +33,37 @@ Real mean(const Set& set, const F& f) {
 
 }  // namespace
 
-std::vector<FreeBody> SceneModel::support(bool pin_free) {
-  const auto unknowns = static_cast<std::size_t>(per_element()) * static_cast<std::size_t>(count_);
+void SceneModel::begin_support(const std::vector<Index>& body) {
   supports_ = Supports();
-  supports_.fixed.assign(unknowns, 0);
-  const std::vector<Index> body = bodies(w_.domain(), tables(), w_.moment().step);
+  supports_.fixed.assign(static_cast<std::size_t>(per_element()) * static_cast<std::size_t>(count_), 0);
   sets_.clear();
   for (const Constraint& c : w_.constraints())
     sets_.push_back(c.grip == Grip::mean ? without_debris(w_.domain().set(c.set), body) : w_.domain().set(c.set));
   fix_prescribed();
   fix_loose();
+}
+
+std::vector<FreeBody> SceneModel::support(bool pin_free) {
+  begin_support(bodies(w_.domain(), tables(), w_.moment().step));
+  for (Index i = 0; i < count_; ++i) rows_.held[i] = 0;
   std::vector<FreeBody> free = free_bodies(w_.domain(), tables(), w_.constraints(), turning(), w_.moment().step);
   if (pin_free)
     for (const FreeBody& each : free) pin(each);
-  std::vector<Constraint> without_means;
-  for (const Constraint& c : w_.constraints())
-    if (c.grip == Grip::each) without_means.push_back(c);
-  if (without_means.size() < w_.constraints().size())
-    pin_means(free_bodies(w_.domain(), tables(), without_means, turning(), w_.moment().step));
+  fix_held();
+  pin_means();
   return free;
+}
+
+void SceneModel::support_as_before() {
+  begin_support(bodies(w_.domain(), tables(), w_.moment().step));
+  fix_held();
+  pin_means();
 }
 
 void SceneModel::fix_prescribed() {
   for (std::size_t n = 0; n < sets_.size(); ++n) {
     const Constraint& c = w_.constraints()[n];
-    if (c.grip == Grip::mean) {
-      if (c.axis >= per_element() || sets_[n].empty()) continue;
-      Supports::Mean mean;
-      for (const Index row : sets_[n]) mean.unknowns.push_back(unknown(row, c.axis));
-      supports_.means.push_back(std::move(mean));
-      continue;
-    }
+    if (c.grip == Grip::mean) continue;
     for (int axis = 0; axis < per_element(); ++axis)
       if (c.prescribes() >> axis & 1)
         for (const Index row : sets_[n]) supports_.fixed[static_cast<std::size_t>(unknown(row, axis))] = 1;
@@ -98,49 +98,80 @@ void SceneModel::pin(const FreeBody& body) {
   }
   for (Eigen::Index k = 0; k < body.modes.cols(); ++k) {
     const int row = holding_most(rows, felt, [](int r) { return r; });
-    supports_.fixed[static_cast<std::size_t>(unknown(body.members[static_cast<std::size_t>(row / d)], row % d))] = 1;
+    Real& bits = rows_.held[body.members[static_cast<std::size_t>(row / d)]];
+    bits = static_cast<Real>(static_cast<unsigned>(bits) | 1u << row % d);
   }
 }
 
-// A spring in each mean, at the unknown where it holds most of what no other support does.
-void SceneModel::pin_means(const std::vector<FreeBody>& without_means) {
-  const int d = per_element();
+void SceneModel::fix_held() {
+  for (Index i = 0; i < count_; ++i)
+    for (int axis = 0; axis < per_element(); ++axis)
+      if (static_cast<unsigned>(rows_.held[i]) >> axis & 1)
+        supports_.fixed[static_cast<std::size_t>(unknown(i, axis))] = 1;
+}
+
+// A spring in each mean: the one that it had, or where it holds most of what no other support does. So that a run that is
+// resumed has the same.
+void SceneModel::pin_means() {
+  std::vector<Constraint*> means;
+  std::vector<std::vector<int>> choices;
+  mean_number_.assign(sets_.size(), -1);
+  bool chosen = true;
+  for (std::size_t n = 0; n < sets_.size(); ++n) {
+    Constraint& c = w_.constraints()[n];
+    if (c.grip != Grip::mean || c.axis >= per_element()) continue;
+    std::vector<int> all, free;
+    for (const Index row : sets_[n]) all.push_back(unknown(row, c.axis));
+    std::copy_if(all.begin(), all.end(), std::back_inserter(free), [&](int u) { return !supports_.is_fixed(u); });
+    if (free.empty()) continue;
+    const int had = c.pinned > 0 ? unknown(static_cast<Index>(c.pinned) - 1, c.axis) : -1;
+    chosen &= std::binary_search(free.begin(), free.end(), had);
+    mean_number_[n] = static_cast<int>(means.size());
+    means.push_back(&c);
+    choices.push_back(std::move(free));
+    supports_.means.push_back({std::move(all), -1});
+  }
+  if (!chosen) choose_pins(means, choices);
+  for (std::size_t k = 0; k < means.size(); ++k)
+    supports_.means[k].pinned = unknown(static_cast<Index>(means[k]->pinned) - 1, means[k]->axis);
+}
+
+void SceneModel::choose_pins(const std::vector<Constraint*>& means, const std::vector<std::vector<int>>& choices) {
+  std::vector<Constraint> others;
+  for (const Constraint& c : w_.constraints())
+    if (c.grip == Grip::each) others.push_back(c);
+  const auto free = free_bodies(w_.domain(), tables(), others, turning(), w_.moment().step);
   Eigen::Index modes = 0;
-  for (const FreeBody& body : without_means) modes += body.modes.cols();
+  for (const FreeBody& body : free) modes += body.modes.cols();
+  const int d = per_element();
   Eigen::MatrixXd felt = Eigen::MatrixXd::Zero(d * count_, std::max<Eigen::Index>(modes, 1));
   Eigen::Index column = 0;
-  for (const FreeBody& body : without_means) {
+  for (const FreeBody& body : free) {
     for (const Index row : body.members) {
       felt.block(unknown(row, 0), column, 3, body.modes.cols()) =
           rigid_at(rows_.place[row] - body.centre, body.length) * body.modes;
-      if (d == 6) felt.block(unknown(row, 3), column, 3, body.modes.cols()) = body.modes.bottomRows<3>();
+      if (d == 6)
+        felt.block(unknown(row, 3), column, 3, body.modes.cols()) = length_ / body.length * body.modes.bottomRows<3>();
     }
     column += body.modes.cols();
   }
-  std::erase_if(supports_.means, [&](Supports::Mean& mean) {
-    std::vector<int> free;
-    for (const int k : mean.unknowns)
-      if (!supports_.fixed[static_cast<std::size_t>(k)]) free.push_back(k);
-    if (free.empty()) return true;
-    mean.pinned = holding_most(free, felt, [](int k) { return k; });
-    return false;
-  });
+  for (std::size_t k = 0; k < means.size(); ++k)
+    means[k]->pinned = holding_most(choices[k], felt, [](int u) { return u; }) / d + 1;
 }
 
 Lacking SceneModel::lacking() const {
   Lacking lack{Vector::Zero(per_element() * count_), Vector::Zero(static_cast<Eigen::Index>(supports_.means.size()))};
-  Eigen::Index means = 0;
   for (std::size_t n = 0; n < sets_.size(); ++n) {
     const Constraint& c = w_.constraints()[n];
     if (c.body) {
       lacking_body(c, n, lack.fixed);
       continue;
     }
-    if (c.axis >= per_element() || sets_[n].empty()) continue;
+    if (c.axis >= per_element() || (c.grip == Grip::mean && mean_number_[n] < 0)) continue;
     const Real moved = c.at(w_.moment().time).displacement - c.at(accepted_time_).displacement;
     const auto left = [&](Index row) { return unit(c.axis) * (moved - gone(row, c.axis)); };
     if (c.grip == Grip::mean)
-      lack.means[means++] = mean(sets_[n], left);
+      lack.means[mean_number_[n]] = mean(sets_[n], left);
     else
       for (const Index row : sets_[n]) lack.fixed[unknown(row, c.axis)] = left(row);
   }

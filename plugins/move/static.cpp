@@ -88,6 +88,10 @@ class Static final : public Mover {
   Reads<Real> mass{this, field::mass};
   Reads<Real> inertia{this, field::inertia};
   Reads<Real> radius{this, field::radius};
+  Keeps<Real> held{this,
+                   {"held", On::elements, "1",
+                    "Bits of the axes along (1 2 4) and about which (8 16 32) a body that is "
+                    "free is held where it is"}};
   Keeps<Real> share{this, {"increment-share", On::scene, "1", "Share of an increment that is tried next"}};
   Keeps<Real> used{this, {"utilisation", On::scene, "1", "Highest utilisation at the last equilibrium"}};
   Keeps<Real> does{this, {"increment-force", On::scene, "N", "What the last increment has changed of the forces"}};
@@ -120,15 +124,15 @@ class Static final : public Mover {
         *tolerance, static_cast<int>(*iterations),
         *slope == "secant" || *solver == "conjugate-gradients" ? Slope::secant : Slope::consistent};
     model_.emplace(w, StaticRows{w.domain().elements().column("position").view<Vec3>(), velocity.view(), force.view(),
-                                 orientation.view(), spin.view(), torque.view(), radius.view()});
+                                 orientation.view(), spin.view(), torque.view(), radius.view(), held.view()});
     system_.emplace(linear_solver(*solver));
     newton_.emplace(*model_, *system_, limits);
     model_->take_pairs();
     seen_breaks_ =
         static_cast<std::size_t>(std::count_if(w.domain().breaks().breaks.begin(), w.domain().breaks().breaks.end(),
                                                [&](const Break& b) { return !resumed || b.step < w.moment().step; }));
+    if (resumed) return model_->support_as_before();
     hold(w);
-    if (resumed) return;
     share[0] = 1, used[0] = 0, does[0] = 0;
     stand_still(w);
     w.evaluate(false);
