@@ -30,6 +30,7 @@ inline Real rounded(Real value, int digits) {
 
 /// "0.372 +- 0.004"
 inline std::string spread_text(const std::vector<Real>& values, int digits = 4) {
+  if (values.empty()) return "not found";
   const Spread spread = spread_of(values);
   if (values.size() < 2) return fmt::format("{:.{}g}", spread.mean, digits);
   return fmt::format("{:.{}g} +- {:.1g}", spread.mean, digits, spread.deviation);

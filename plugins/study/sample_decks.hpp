@@ -120,10 +120,16 @@ inline std::string elastic_deck(const SampleDecks& d) {
                 : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)");
 }
 
-/// Stretched until it breaks. `criterion`: the plugin in <fail>. Without inertia one breaks after the other, so that a
-/// small fall tells that the peak is behind.
-inline std::string strength_deck(const SampleDecks& d, const std::string& criterion) {
-  const bool is_static = d.by == "static";
+/// Stretched until it breaks, by this mover. `criterion`: the plugin in <fail>. Without inertia one breaks after the
+/// other, and an increment ends where the first of them does: it may be long, and a small fall tells that the peak is
+/// behind.
+inline std::string strength_deck(const std::string& by, const std::string& criterion) {
+  const bool is_static = by == "static";
+  const std::string mover =
+      is_static ? "<static increment=\"${stretch/4}\" free=\"pin\" until=\"${stretch} or force of far &lt; 70 percent "
+                  "of its "
+                  "maximum\"/>"
+                : "<verlet bond-damping=\"0.1\" until=\"${time} or force of far &lt; 50 percent of its maximum\"/>";
   return fmt::format(
       R"({}<scene name="strength">
   <include file="sample.xml"/>
@@ -136,10 +142,7 @@ inline std::string strength_deck(const SampleDecks& d, const std::string& criter
   <move>{}</move>
 </scene>
 )",
-      deck_head(false), is_static ? 1 : 20, is_static ? "" : R"( rise="${time/20}")", criterion,
-      is_static
-          ? R"(<static increment="${stretch/40}" free="pin" until="${stretch} or force of far &lt; 70 percent of its maximum"/>)"
-          : R"(<verlet bond-damping="0.1" until="${time} or force of far &lt; 50 percent of its maximum"/>)");
+      deck_head(false), is_static ? 1 : 20, is_static ? "" : R"( rise="${time/20}")", criterion, mover);
 }
 
 }  // namespace beadwork::calibration
