@@ -81,6 +81,14 @@ class Calibration final : public Study {
        .fallback = "static",
        .choices = {"static", "verlet"}}};
 
+  Param<Real> within{
+      this,
+      {.name = "within",
+       .range = {0, 0.5},
+       .doc = "By statics, what comes so near, as a share, to breaking first breaks with it; 1e-6 is one "
+              "after the other, more is faster",
+       .fallback = "0.02"}};
+
   void check(Complaints& complaints) const override {
     if (name.given() && !is_plain_name(*name))
       complaints.error(name.at(), fmt::format("'name' wants {}, got \"{}\"", plain_name, *name));
@@ -126,7 +134,7 @@ class Calibration final : public Study {
     plan.material = {*name, *young, *poisson, {}, {}};
     if (strength.given()) plan.material.strength = *strength;
     if (density.given()) plan.material.density = *density;
-    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by};
+    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by, *within};
     for (const auto& row : *ratios) plan.ratios.push_back(row[0]);
     plan.seeds = *seeds;
     plan.bond_poisson = *bond_poisson;

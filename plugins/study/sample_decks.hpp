@@ -16,6 +16,7 @@ struct SampleDecks {
   Real spread, coordination;
   std::string counted;  ///< whose contacts: all or bulk
   std::string by;       ///< the mover: static or verlet
+  Real within;          ///< share by which what breaks may be below what breaks first
 };
 
 inline const char* deck_head(bool is_part) {
@@ -123,12 +124,14 @@ inline std::string elastic_deck(const SampleDecks& d) {
 /// Stretched until it breaks, by this mover. `criterion`: the plugin in <fail>. Without inertia one breaks after the
 /// other, and an increment ends where the first of them does: it may be long, and a small fall tells that the peak is
 /// behind.
-inline std::string strength_deck(const std::string& by, const std::string& criterion) {
+inline std::string strength_deck(const SampleDecks& d, const std::string& by, const std::string& criterion) {
   const bool is_static = by == "static";
+  const std::string within = fmt::format(
+      "  <parameter name=\"within\"   value=\"{}\"/>  <!-- what comes so near to breaking first breaks too -->\n",
+      d.within);
   const std::string mover =
-      is_static ? "<static increment=\"${stretch/4}\" free=\"pin\" until=\"${stretch} or force of far &lt; 70 percent "
-                  "of its "
-                  "maximum\"/>"
+      is_static ? "<static increment=\"${stretch/4}\" at-once=\"1000\" within=\"${within}\" free=\"pin\"\n"
+                  "                until=\"${stretch} or force of far &lt; 70 percent of its maximum\"/>"
                 : "<verlet bond-damping=\"0.1\" until=\"${time} or force of far &lt; 50 percent of its maximum\"/>";
   return fmt::format(
       R"({}<scene name="strength">
@@ -137,12 +140,13 @@ inline std::string strength_deck(const std::string& by, const std::string& crite
   <parameter name="stretch"  value="1 mm"/>           <!-- in which it should have broken -->
   <parameter name="time"     value="1 ms"/>           <!-- that this takes -->
   <parameter name="every"    value="{}"/>
-  <load><pull set="far" axis="${{axis}}" velocity="${{stretch/time}}"{}/></load>
+{}  <load><pull set="far" axis="${{axis}}" velocity="${{stretch/time}}"{}/></load>
   <fail><{} strength="${{strength}}"/></fail>
   <move>{}</move>
 </scene>
 )",
-      deck_head(false), is_static ? 1 : 20, is_static ? "" : R"( rise="${time/20}")", criterion, mover);
+      deck_head(false), is_static ? 1 : 20, is_static ? within : "", is_static ? "" : R"( rise="${time/20}")",
+      criterion, mover);
 }
 
 }  // namespace beadwork::calibration
