@@ -41,6 +41,12 @@ const char* in_words(Reason reason) {
   return "";
 }
 
+// The change of what supports take and of loads, and a thousandth of what stands: near a peak the change alone is nothing.
+Real Newton::what_it_does(const Vector& f, const Vector& unbalanced, const Vector& at_start, Real loads) const {
+  const Vector before = at_start - model_.supports().unbalanced(at_start), now = f - unbalanced;
+  return std::max({loads, (now - before).norm(), 1e-3 * now.norm()});
+}
+
 Factored Newton::factor(Slope slope) {
   const SymmetricMatrix* k = nullptr;
   {
@@ -72,7 +78,8 @@ NewtonResult Newton::go(Real time) {
   if (!f.allFinite()) return result.reason = Reason::no_number, result;
   const Vector at_start = f;
   Vector unbalanced, du, moved = Vector::Zero(f.size());
-  Real before = -1, least = -1, energy_reference = 0;
+  const Real loads = model_.supports().unbalanced(f).norm();
+  Real before = loads, least = -1;
   int growths = 0, with_this_factor = 0;
   Acceleration acceleration;
   bool forced = stale_ || !system_.is_factored();
@@ -89,26 +96,21 @@ NewtonResult Newton::go(Real time) {
         return result.reason = Reason::singular, result;
       }
     }
-    const Lacking lacking = model_.lacking();
-    if (before < 0) before = model_.supports().unbalanced(f).norm();
-    const Real unbalanced_at_start = result.iterations == 1 ? before : 0;
-    if (!solve(f, lacking, du)) return result.reason = Reason::linear_solver, result;
+    if (!solve(f, model_.lacking(), du)) return result.reason = Reason::linear_solver, result;
     du = acceleration.step(du);
     model_.move(du);
     moved += du;
     const Vector f_before = f;
     f = forces();
     if (!f.allFinite()) return result.reason = Reason::no_number, result;
-    const Real work = 0.5 * (f_before + f).dot(du);
-    result.released += work;
+    result.released += 0.5 * (f_before + f).dot(du);
 
     unbalanced = model_.supports().unbalanced(f);
     const Real left = unbalanced.norm();
-    const Vector taken = (f - unbalanced) - (at_start - model_.supports().unbalanced(at_start));
-    result.reference = std::max({result.reference, unbalanced_at_start, taken.norm()});
-    energy_reference = std::max({energy_reference, std::abs(f_before.dot(du)), std::abs(taken.dot(moved))});
-    result.residual = result.reference > 0 ? left / result.reference : 0;
+    result.reference = what_it_does(f, unbalanced, at_start, loads);
+    const Real energy_reference = std::abs(at_start.dot(moved)) + std::abs((f - unbalanced).dot(moved));
     const Real floor = model_.noise();
+    result.residual = left > floor ? left / result.reference : 0;
     const bool balanced = left <= limits_.tolerance * result.reference + floor;
     const bool still = du.norm() <= limits_.tolerance * moved.norm();
     const bool spent = std::abs(unbalanced.dot(du)) <= limits_.tolerance * energy_reference;
@@ -121,6 +123,43 @@ NewtonResult Newton::go(Real time) {
     if (least < 0 || left < least) least = left;
     forced = ++with_this_factor >= patience || left > slow * std::max(least, limits_.tolerance * result.reference);
     before = left;
+  }
+  --result.iterations;
+  return result.reason = Reason::too_many_iterations, result;
+}
+
+// Each iteration solves twice: for what is unbalanced, and for what a second of the loads' course would bring; of that as
+// much is taken as the controlled quantity wants.
+NewtonResult Newton::go_by(const Vector& gradient, Real value) {
+  NewtonResult result;
+  Vector f = forces();
+  const Vector at_start = f;
+  for (result.iterations = 1; result.iterations <= limits_.iterations; ++result.iterations) {
+    ++costs_.iterations;
+    const Factored factored = factor(limits_.slope);
+    if (!factored.whole || factored.weakest >= 0) {
+      result.weakest = factored.weakest;
+      return result.reason = Reason::singular, result;
+    }
+    Vector du, per_second;
+    if (!solve(f, model_.lacking(), du) || !solve(model_.force_rates(), model_.support_rates(), per_second))
+      return result.reason = Reason::linear_solver, result;
+    const Real pace = gradient.dot(per_second);
+    const Real seconds = (value - gradient.dot(model_.moved()) - gradient.dot(du)) / pace;
+    if (!std::isfinite(seconds)) return result.reason = Reason::singular, result;
+    du += seconds * per_second;
+    model_.begin_trial(model_.time() + seconds);
+    model_.move(du);
+    f = forces();
+    if (!f.allFinite()) return result.reason = Reason::no_number, result;
+    const Vector unbalanced = model_.supports().unbalanced(f);
+    result.reference = what_it_does(f, unbalanced, at_start, 0);
+    const Real floor = model_.noise();
+    result.residual = unbalanced.norm() > floor ? unbalanced.norm() / result.reference : 0;
+    const bool still = du.norm() <= limits_.tolerance * model_.moved().norm();
+    if (unbalanced.norm() <= limits_.tolerance * result.reference + floor &&
+        (still || unbalanced.norm() <= 1e-3 * limits_.tolerance * result.reference + floor))
+      return result;
   }
   --result.iterations;
   return result.reason = Reason::too_many_iterations, result;

@@ -43,11 +43,15 @@ class Newton {
   /// Brings the model from its last accepted state to the equilibrium at this time; the trial state is left as it
   /// stands at the end.
   NewtonResult go(Real time);
+  /// The equilibrium at which `gradient` times what has moved since the last accepted state is `value`: loads go as far
+  /// as that takes, backwards too.
+  NewtonResult go_by(const Vector& gradient, Real value);
   /// The factor is of a state before, which may be too far away: the next iteration finds its own.
   void forget_factor() { stale_ = true; }
   const NewtonCosts& costs() const { return costs_; }
 
  private:
+  Real what_it_does(const Vector& f, const Vector& unbalanced, const Vector& at_start, Real loads) const;
   Factored factor(Slope slope);
   bool solve(const Vector& forces, const Lacking& lacking, Vector& du);
   const Vector& forces();

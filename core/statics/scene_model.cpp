@@ -63,12 +63,12 @@ void SceneModel::move(const Vector& by) {
       [&](Index i) {
         const auto at = static_cast<std::size_t>(i);
         rows_.place.add(i, by.segment<3>(d * i));
-        if (dt > 0) rows_.velocity.set(i, (rows_.place[i] - places_[at]) / dt);
+        if (dt != 0) rows_.velocity.set(i, (rows_.place[i] - places_[at]) / dt);
         if (d == 3) return;
         const Vec3 turn = by.segment<3>(d * i + 3) / length_;
         turned_[at] += turn;
         rows_.orientation.set(i, renormalise<Real>(turn_by(turn) * rows_.orientation[i]));
-        if (dt > 0) rows_.spin.set(i, turned_[at] / dt);
+        if (dt != 0) rows_.spin.set(i, turned_[at] / dt);
       },
       1024);
 }
@@ -83,12 +83,61 @@ const Vector& SceneModel::forces() {
   return forces_;
 }
 
+// Loads alone change with the time, where nothing moves.
+Vector SceneModel::force_rates() {
+  const Real now = w_.moment().time, step = std::max(std::abs(w_.moment().time_step), 1e-9 * std::abs(now));
+  const Vector here = forces();
+  w_.moment().time = now + 1e-3 * step;
+  const Vector later = forces();
+  w_.moment().time = now;
+  return (later - here) / (1e-3 * step);
+}
+
+Vector SceneModel::moved() const {
+  Vector all(per_element() * count_);
+  for (Index i = 0; i < count_; ++i) {
+    all.segment<3>(unknown(i, 0)) = rows_.place[i] - places_[static_cast<std::size_t>(i)];
+    if (turning()) all.segment<3>(unknown(i, 3)) = length_ * turned_[static_cast<std::size_t>(i)];
+  }
+  return all;
+}
+
+std::optional<Vector> SceneModel::opening(const std::string& family, bool softening_only) const {
+  Vector gradient = Vector::Zero(per_element() * count_);
+  const Real last = w_.moment().time_step;
+  Real sum = 0;
+  for (const auto& [law, table] : w_.laws()) {
+    if (law->family() != family) continue;
+    for (const Chunk& chunk : table->chunks())
+      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+        if (softening_only && table->state()[b] != State::softening) continue;
+        const Index i = table->first()[b], j = table->second()[b];
+        const Vec3 apart = rows_.place[j] - rows_.place[i], n = apart / apart.norm();
+        const Real weight = last * n.dot(Vec3(rows_.velocity[j] - rows_.velocity[i]));
+        if (!(weight > 0)) continue;
+        sum += weight;
+        gradient.segment<3>(unknown(j, 0)) += weight * n;
+        gradient.segment<3>(unknown(i, 0)) -= weight * n;
+      }
+  }
+  if (!(sum > 0)) return std::nullopt;
+  return gradient / sum;
+}
+
 // Places are known to the last digit of the largest of them, and so are elongations.
 Real SceneModel::noise() const {
   const SymmetricMatrix& k = stiffness_.matrix();
   Real square = 0;
   for (int u = 0; u < k.size(); ++u) square += k.diagonal(u) * k.diagonal(u);
   return std::numeric_limits<Real>::epsilon() * std::max(extent_, length_) * std::sqrt(square);
+}
+
+// Energies of turns are small differences of cosines.
+Real SceneModel::energy_noise() const {
+  const SymmetricMatrix& k = stiffness_.matrix();
+  Real sum = 0;
+  for (int u = 0; u < k.size(); ++u) sum += std::abs(k.diagonal(u));
+  return 4 * std::numeric_limits<Real>::epsilon() * length_ * length_ * sum;
 }
 
 const SymmetricMatrix& SceneModel::stiffness(Slope slope) {

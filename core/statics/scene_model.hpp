@@ -2,6 +2,8 @@
 // The scene of a run as static solvers see it: its laws, its loads and what is prescribed, through what the loop lends.
 //                                                                                             docs/theory/statics.md
 
+#include <optional>
+
 #include "core/domain/free_bodies.hpp"
 #include "core/plugin/kinds.hpp"
 #include "core/statics/static_model.hpp"
@@ -28,7 +30,13 @@ class SceneModel final : public StaticModel {
   void move(const Vector& by) override;
   const Vector& forces() override;
   const SymmetricMatrix& stiffness(Slope slope) override;
+  Vector force_rates() override;
+  Lacking support_rates() const override;
+  Vector moved() const override;
+  Real time() const override { return w_.moment().time; }
   Real noise() const override;
+  /// Energies smaller than this are round-off [J].
+  Real energy_noise() const;
   void give_up() override;
 
   /// The trial state is accepted: laws note what they keep, what is prescribed tells its forces and its work.
@@ -39,6 +47,9 @@ class SceneModel final : public StaticModel {
   std::vector<FreeBody> support(bool pin);
   /// The same supports, after a restart: free bodies are held where they were.
   void support_as_before();
+  /// The mean opening of the bonds of a family that soften, or of all, each with the weight of what it has opened in the
+  /// last step, as a product with what elements move. Nothing if there is no such bond.
+  std::optional<Vector> opening(const std::string& family, bool softening_only) const;
   /// Elements that nothing binds, which are held where they are.
   Index loose() const { return loose_; }
   /// The pairs that bonds and contacts make have changed since the stiffness got its pattern.

@@ -178,6 +178,29 @@ Lacking SceneModel::lacking() const {
   return lack;
 }
 
+Lacking SceneModel::support_rates() const {
+  Lacking rates{Vector::Zero(per_element() * count_), Vector::Zero(static_cast<Eigen::Index>(supports_.means.size()))};
+  for (std::size_t n = 0; n < sets_.size(); ++n) {
+    const Constraint& c = w_.constraints()[n];
+    const Real rate = c.at(w_.moment().time).velocity;
+    if (c.body) {
+      const Circles circles(c.axis - 3, c.body->about);
+      for (const Index row : sets_[n]) {
+        const Vec3 velocity = circles.velocity(circles.arm(rows_.place[row]), rate);
+        for (int axis = 0; axis < 3; ++axis)
+          if (c.prescribes() >> axis & 1) rates.fixed[unknown(row, axis)] = velocity[axis];
+        if (turning()) rates.fixed[unknown(row, 3 + circles.axis())] = length_ * rate;
+      }
+    } else if (c.axis < per_element()) {
+      if (c.grip == Grip::each)
+        for (const Index row : sets_[n]) rates.fixed[unknown(row, c.axis)] = unit(c.axis) * rate;
+      else if (mean_number_[n] >= 0)
+        rates.means[mean_number_[n]] = unit(c.axis) * rate;
+    }
+  }
+  return rates;
+}
+
 // Places follow from where the turn began, turns from where the trial did.
 void SceneModel::lacking_body(const Constraint& c, std::size_t number, Vector& lack) const {
   const Circles circles(c.axis - 3, c.body->about);

@@ -20,6 +20,12 @@ class StaticModel {
   virtual const Vector& forces() = 0;
   /// K at the trial state: of the forces the slope, less than nothing [N/m].
   virtual const SymmetricMatrix& stiffness(Slope slope) = 0;
+  /// By how much, over a second, loads push more, and supports move on, at the time of the trial.
+  virtual Vector force_rates() = 0;
+  virtual Lacking support_rates() const = 0;
+  /// What the trial state has moved since the last accepted one.
+  virtual Vector moved() const = 0;
+  virtual Real time() const = 0;
   /// Forces smaller than this are round-off [N].
   virtual Real noise() const = 0;
   /// Back to the last accepted state.

@@ -65,7 +65,7 @@ void StiffnessMatrix::add(Index first, Index second, const Matrix12& bond) {
 // The null space of each element's own block: what nothing at all resists, however its neighbours move.
 void StiffnessMatrix::hold_idle() {
   const int d = per_element_;
-  const Real spring = largest();
+  const Real spring = largest() > 0 ? largest() : 1;
   for (int first = 0; first < matrix_.size(); first += d) {
     Block block(d, d);
     for (int c = 0; c < d; ++c)

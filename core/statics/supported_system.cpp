@@ -13,6 +13,7 @@ Factored SupportedSystem::factor(const SymmetricMatrix& k, const Supports& suppo
   free_ = k;
   Real largest = 0;
   for (int u = 0; u < k.size(); ++u) largest = std::max(largest, std::abs(k.diagonal(u)));
+  if (largest == 0) largest = 1;  // all has broken
   spring_ = largest;
   for (int column = 0; column < k.size(); ++column) {
     const bool gone = is_fixed(column);

@@ -34,6 +34,20 @@ class Static final : public Mover {
        .doc = "Instead of 'increment': the time by which loads go on. Time tells the course of loads; "
               "inertia there is none",
        .one_of = "length of an increment"}};
+  Param<Real> opening{
+      this,
+      {.name = "opening",
+       .unit = "m",
+       .range = positive,
+       .doc =
+           "While bonds of 'opening-of' soften: how far they open from one equilibrium to the next, in the mean; loads "
+           "follow, backwards too where that takes less (snap-back), and no further than an increment",
+       .optional = true}};
+  Param<std::string> opening_of{this,
+                                {.name = "opening-of",
+                                 .doc = "Family of bonds whose opening is controlled",
+                                 .optional = true,
+                                 .role = Role::family}};
   Param<Real> smallest{this,
                        {.name = "smallest",
                         .range = {0, 1, true, false},
@@ -107,6 +121,9 @@ class Static final : public Mover {
       use->want(wanted);
   }
   void check(Complaints& complaints) const override {
+    if (opening.given() != opening_of.given())
+      complaints.error(opening.given() ? opening.at() : opening_of.at(),
+                       "'opening' and 'opening-of' are given together: how far which bonds open");
     if (*slope == "consistent" && *solver == "conjugate-gradients" && slope.in_deck())
       complaints.error(slope.at(),
                        "conjugate gradients solve with a stiffness that is never negative: slope=\"secant\"");
@@ -146,17 +163,18 @@ class Static final : public Mover {
     heed_changes(w);
     ++w.moment().step;
     newton_->forget_factor();  // so that a run that is resumed finds the same bits
-    if (is_out_of_balance(w)) {
+    if (broke_ && is_out_of_balance())
       settle(w);
-    } else {
+    else
       advance(w);
-    }
     model_->accept();
   }
 
   void energy(EnergySink& sink) const override {
     if (released[0] != 0) sink.dissipated("redistribution", released[0]);
   }
+  // Round-off alone, where nothing has been done yet.
+  Real swing() const override { return model_ ? model_->energy_noise() : 0; }
   std::vector<MoverFigure> figures() const override {
     if (!newton_) return {};
     const NewtonCosts& costs = newton_->costs();
@@ -212,11 +230,11 @@ class Static final : public Mover {
     }
   }
 
-  // Contacts that have opened by themselves leave nothing behind; what a criterion fells does.
-  bool is_out_of_balance(Workings& w) {
-    if (!broke_) return false;
-    model_->begin_trial(w.moment().time);
+  // What broke pulls at the supports no more. Contacts that have opened by themselves leave nothing out of balance; what a
+  // criterion fells does.
+  bool is_out_of_balance() {
     const Vector f = model_->forces();
+    model_->react(false);
     return model_->supports().unbalanced(f).norm() > *tolerance * does[0] + model_->noise();
   }
 
@@ -236,6 +254,7 @@ class Static final : public Mover {
   void advance(Workings& w) {
     IncrementShare tried(share[0], *smallest);
     const Real from = w.moment().time;
+    if (opening.given() && advance_by_opening(w, tried, true)) return;
     for (;;) {
       const Real to = next_time(w, tried.share());
       NewtonResult result = go(w, to);
@@ -248,11 +267,40 @@ class Static final : public Mover {
       }
       model_->give_up();
       newton_->forget_factor();
+      if (opening.given() && advance_by_opening(w, tried, false)) return;
       if (!tried.cut()) fail(w, result, to - from);
-      cuts[0] += 1;
-      w.log().say(fmt::format("step {}: increment cut to {:.3g} of the whole: {}", w.moment().step, tried.share(),
-                              told(w, result)));
+      note_cut(w, tried, result);
     }
+  }
+
+  /// A step in which bonds open by what the deck says. False where none of them opens, or where loads would go further
+  /// than an increment.
+  bool advance_by_opening(Workings& w, IncrementShare& tried, bool softening_only) {
+    const auto gradient = model_->opening(*opening_of, softening_only);
+    if (!gradient) return false;
+    const Real from = w.moment().time, longest = next_time(w, 1);
+    for (;;) {
+      newton_->forget_factor();
+      const NewtonResult result = newton_->go_by(*gradient, tried.share() * *opening);
+      spent[0] += result.iterations;
+      if (result.converged()) {
+        if (w.moment().time > longest) return model_->give_up(), false;
+        w.moment().time_step = w.moment().time - from;
+        tried.grow(result.iterations, static_cast<int>(*iterations));
+        worst[0] = std::max(worst[0], result.residual);
+        used[0] = w.utilisation();
+        return true;
+      }
+      model_->give_up();
+      if (!tried.cut()) fail(w, result, 0);
+      note_cut(w, tried, result);
+    }
+  }
+
+  void note_cut(Workings& w, const IncrementShare& tried, const NewtonResult& result) {
+    cuts[0] += 1;
+    w.log().say(fmt::format("step {}: increment cut to {:.3g} of the whole: {}", w.moment().step, tried.share(),
+                            told(w, result)));
   }
 
   NewtonResult go(Workings& w, Real to) {
