@@ -131,7 +131,7 @@ inline std::string strength_deck(const SampleDecks& d, const std::string& by, co
       d.within);
   const std::string mover =
       is_static ? "<static increment=\"${stretch/4}\" at-once=\"1000\" within=\"${within}\" free=\"pin\"\n"
-                  "                until=\"${stretch} or force of far &lt; 70 percent of its maximum\"/>"
+                  "                until=\"${stretch} or force of far &lt; 80 percent of its maximum\"/>"
                 : "<verlet bond-damping=\"0.1\" until=\"${time} or force of far &lt; 50 percent of its maximum\"/>";
   return fmt::format(
       R"({}<scene name="strength">
