@@ -33,6 +33,9 @@ HURRY = {
     "dcb": (600, ["v=200 m/s", "a0=1 mm", "strength=0.1 MPa", "G=1e-4 N/mm", "count=1500"]),
     "glued-block": (600, ["v=20 m/s", "count=800"]),
     "notched-bar": (600, ["v=40 m/s", "strength=30 MPa", "count=600"]),
+    "notched-bar/static": (40, ["strength=30 MPa", "count=600", "increment=2 um"]),
+    "curved-beam": (12, ["increments=24"]),
+    "roll-up": (16, []),
     "notched-bar/rdef": (600, ["v=40 m/s", "strength=2 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
@@ -43,7 +46,7 @@ class Case:
         self.beadwork, self.folder = beadwork, folder
         self.steps, self.settings = HURRY.get(f"{deck.parent.name}/{deck.stem}", HURRY.get(deck.parent.name, (STEPS, [])))
         self.every = max(1, self.steps // 20)
-        for file in deck.parent.glob("*.xml"):
+        for file in [*deck.parent.glob("*.xml"), *deck.parent.glob("*.csv")]:
             shutil.copy(file, folder)
         self.deck = folder / deck.name
         self.deck.write_text(self.deck.read_text().replace("</scene>", '<watch><snapshot fields="all" every="1"/></watch></scene>'))

@@ -1,7 +1,7 @@
 # Each case's quick deck: same bits on one and two threads and across a restart, and nothing lost by a kill.
 set(here ${CMAKE_CURRENT_LIST_DIR})
 file(GLOB decks CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/xml-cases/*/quick.xml)
-list(APPEND decks ${PROJECT_SOURCE_DIR}/xml-cases/notched-bar/rdef.xml)
+list(APPEND decks ${PROJECT_SOURCE_DIR}/xml-cases/notched-bar/rdef.xml ${PROJECT_SOURCE_DIR}/xml-cases/notched-bar/static.xml)
 foreach(deck IN LISTS decks)
   get_filename_component(folder ${deck} DIRECTORY)
   get_filename_component(name ${folder} NAME)
