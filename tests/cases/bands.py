@@ -383,7 +383,7 @@ def calibration():
     strength, stretch_to = float(given["strength"].split()[0]), float(given["stretch"].split()[0])
     twice, _ = peak(strength=f"{strength / 1000} Pa", stretch=f"{stretch_to / 1000} mm")
     smaller, _ = peak(strength=f"{strength / 2000} Pa", stretch=f"{stretch_to / 2000} mm")
-    near("K9: half the strength, half the peak, at small strains", 2 * smaller, twice, 1e-4)
+    near("K9: half the strength, half the peak, at small strains", 2 * smaller, twice, 1e-6)
     near("K9: at the strains of the epoxy", once / 1000, twice, 0.02)
 
 
