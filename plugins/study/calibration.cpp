@@ -48,7 +48,7 @@ class Calibration final : public Study {
                              {.name = "counted",
                               .doc = "Whose contacts: of all elements, or of those farther than three mean radii from "
                                      "walls",
-                              .fallback = "all",
+                              .fallback = "bulk",
                               .choices = {"all", "bulk"}}};
   Param<Real> bond_poisson{this,
                            {.name = "bond-poisson",
@@ -73,11 +73,21 @@ class Calibration final : public Study {
                                                    "<bond-stress> by their measures, and of <virial-stress>",
                                             .fallback = "bbf-axial-bending rdef",
                                             .choices = {"bbf-axial", "bbf-axial-bending", "bbf-principal", "rdef"}}};
-  Param<std::string> by{this,
-                        {.name = "by",
-                         .doc = "How the samples are stretched: with inertia, slowly (verlet)",
-                         .fallback = "verlet",
-                         .choices = {"verlet"}}};
+  Param<std::string> by{
+      this,
+      {.name = "by",
+       .doc = "Mover of the samples: static finds equilibria, and breaks one bond or element after the "
+              "other; verlet pulls slowly, with inertia",
+       .fallback = "static",
+       .choices = {"static", "verlet"}}};
+
+  Param<Real> within{
+      this,
+      {.name = "within",
+       .range = {0, 0.5},
+       .doc = "By statics, what comes so near, as a share, to breaking first breaks with it; 1e-6 is one "
+              "after the other, more is faster",
+       .fallback = "0.02"}};
 
   void check(Complaints& complaints) const override {
     if (name.given() && !is_plain_name(*name))
@@ -124,7 +134,7 @@ class Calibration final : public Study {
     plan.material = {*name, *young, *poisson, {}, {}};
     if (strength.given()) plan.material.strength = *strength;
     if (density.given()) plan.material.density = *density;
-    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by};
+    plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by, *within};
     for (const auto& row : *ratios) plan.ratios.push_back(row[0]);
     plan.seeds = *seeds;
     plan.bond_poisson = *bond_poisson;

@@ -10,7 +10,7 @@
 #include "core/base/text.hpp"
 #include "core/mechanics/bonded_packing.hpp"
 #include "core/plugin/study.hpp"
-#include "plugins/study/calibration_plan.hpp"
+#include "plugins/study/samples.hpp"
 
 namespace beadwork::calibration {
 
@@ -21,15 +21,9 @@ std::vector<Real> each(const std::vector<T>& all, Real T::*member) {
   return values;
 }
 
-/// To so many digits: what stands in the file is what was run.
-inline Real rounded(Real value, int digits) {
-  if (value == 0) return 0;
-  const Real scale = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
-  return std::round(value * scale) / scale;
-}
-
 /// "0.372 +- 0.004"
 inline std::string spread_text(const std::vector<Real>& values, int digits = 4) {
+  if (values.empty()) return "not found";
   const Spread spread = spread_of(values);
   if (values.size() < 2) return fmt::format("{:.{}g}", spread.mean, digits);
   return fmt::format("{:.{}g} +- {:.1g}", spread.mean, digits, spread.deviation);
@@ -122,7 +116,7 @@ inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& 
     poisson_rows.back().insert(poisson_rows.back().end(), nu.begin(), nu.end());
     stiffness_rows.push_back({ratio, t.mean, t.deviation});
     stiffness_rows.back().insert(stiffness_rows.back().end(), modulus.begin(), modulus.end());
-    const Real z = spread_of(each(found.packings, &Packed::coordination)).mean;
+    const Real z = spread_of(each(found.packings, &Packed::coordination_bulk)).mean;
     const Real phi = spread_of(each(found.packings, &Packed::density_bulk)).mean;
     stiffness_rows.back().push_back(stiffness_ratio({z, phi, ratio}, s.mean));
   }
@@ -159,7 +153,7 @@ inline std::string result_json(const Plan& plan, const Found& found) {
       format_number(found.ratio), numbers_json(found.ratios), format_number(found.young),
       numbers_json(each(found.elastic, &Elastic::poisson)), numbers_json(each(found.elastic, &Elastic::centres)),
       numbers_json(each(found.elastic, &Elastic::box)), numbers_json(each(found.elastic, &Elastic::virial)),
-      format_number(stiffness_ratio({spread_of(each(found.packings, &Packed::coordination)).mean,
+      format_number(stiffness_ratio({spread_of(each(found.packings, &Packed::coordination_bulk)).mean,
                                      spread_of(each(found.packings, &Packed::density_bulk)).mean, found.ratio},
                                     spread_of(each(found.elastic, &Elastic::poisson)).mean)),
       numbers_json(each(found.elastic, &Elastic::sideways)));

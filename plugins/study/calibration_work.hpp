@@ -7,13 +7,14 @@
 
 #include "core/base/failure.hpp"
 #include "plugins/study/calibration_results.hpp"
+#include "plugins/study/strength_tests.hpp"
 
 namespace beadwork::calibration {
 
 class Work {
  public:
   Work(const Plan& plan, const StudyDesk& desk, const Location& poisson_at)
-      : plan_(plan), desk_(desk), poisson_at_(poisson_at) {}
+      : plan_(plan), samples_(plan), desk_(desk), poisson_at_(poisson_at) {}
 
   Found all() {
     desk_.write("size.xml", size_deck(plan_.decks));
@@ -25,17 +26,13 @@ class Work {
     find_ratio();
     find_young();
     look_along_other_axes();
-    if (plan_.material.strength)
-      for (const std::string& criterion : plan_.criteria) find_strength(criterion);
+    if (plan_.material.strength) found_.strengths = StrengthTests(plan_, desk_, found_).all();
     return found_;
   }
 
  private:
-  using Overrides = std::vector<Override>;
   static constexpr Real strain_ = 1e-4;  // of elastic samples
-  static constexpr Real transits_ = 40;  // of waves along a sample, while it is stretched: slow where there is inertia
   static constexpr Real close_ = 1e-3;   // of Poisson's ratio to the target
-  static constexpr int digits_ = 4;      // of what is found
 
   // --- samples ------------------------------------------------------------------------------------------------------
 
@@ -70,38 +67,25 @@ class Work {
 
   // --- elastic ------------------------------------------------------------------------------------------------------
 
-  Real extent() const {  // [m]
-    const Real n = static_cast<Real>(plan_.decks.elements), phi = 0.64, radius = 1e-3;
-    return plan_.decks.is_cylinder ? 2 * std::cbrt(n * 8 / (3 * phi)) * radius
-                                   : std::cbrt(n * 4 * std::numbers::pi / (3 * phi)) * radius;
-  }
+  // Of elastic samples: small, so that they are linear; above what waves leave behind where there is inertia.
+  Real strain() const { return plan_.decks.by == "static" ? 1e-6 : 1e-4; }
   // Of the sample's waves along its length, with the decks' density.
-  Real transit() const { return extent() / std::sqrt(plan_.material.young / 640); }
+  Real transit() const { return samples_.extent() / std::sqrt(plan_.material.young / 640); }
 
   Real guessed_young(const Packed& packing, Real ratio) const {
-    const Real guess = stiffness_ratio({packing.coordination, packing.density_bulk, ratio},
+    const Real guess = stiffness_ratio({packing.coordination_bulk, packing.density_bulk, ratio},
                                        std::min(plan_.material.poisson, Real(0.45)));
-    return rounded(plan_.material.young / guess, digits_);
-  }
-
-  Overrides sample_of(const Packed& packing, Real ratio, Real young) const {
-    return {{"packing", packing.file},
-            {"radius-ratio", format_number(ratio)},
-            {"young", format_number(young) + " Pa"},
-            {"poisson", format_number(plan_.bond_poisson)}};
+    return rounded(plan_.material.young / guess, significant);
   }
 
   Errand elastic_errand(const Packed& packing, Real ratio, Real young, const std::string& axis) const {
     Errand errand{fmt::format("elastic-{},seed={},radius-ratio={}", axis, packing.seed, format_number(ratio)),
-                  elastic_deck_, sample_of(packing, ratio, young)};
-    add(errand.overrides, {{"stretch", length_text(strain_ * extent())}, {"time", time_text(transits_ * transit())}});
+                  elastic_deck_, samples_.of(packing, ratio, young)};
+    add(errand.overrides,
+        {{"stretch", length_text(strain() * samples_.extent())}, {"time", time_text(transits * samples_.transit())}});
     if (axis != first_axis()) add(errand.overrides, turned_to(axis));
     return errand;
   }
-
-  static void add(Overrides& all, const Overrides& more) { all.insert(all.end(), more.begin(), more.end()); }
-  static std::string length_text(Real metres) { return format_number(rounded(metres * 1e3, digits_)) + " mm"; }
-  static std::string time_text(Real seconds) { return format_number(rounded(seconds * 1e6, digits_)) + " us"; }
 
   std::string first_axis() const { return plan_.decks.is_cylinder ? "z" : "x"; }
 
@@ -120,12 +104,6 @@ class Work {
     return values.empty() ? std::numeric_limits<Real>::quiet_NaN() : values.back();
   }
 
-  Real section(bool through_centres) const {  // [m^2]
-    const Real side = plan_.decks.is_cylinder ? extent() / 2 : extent();
-    const Real width = side - (through_centres ? 2e-3 : 0);
-    return (plan_.decks.is_cylinder ? std::numbers::pi / 4 : 1) * width * width;
-  }
-
   Elastic read(const Outcome& outcome, const std::string& axis, Real young) const {
     const Real force = last(outcome.column("force", "force")), stretch = last(outcome.column("force", "displacement"));
     const auto near = outcome.column("near", "mean"), far = outcome.column("far", "mean");
@@ -140,8 +118,8 @@ class Work {
       (is_along ? stress : lateral_stress) += core("stress", a) / (is_along ? 1 : 2);
     }
     const Real modulus = force * length / stretch / young;
-    return {-lateral_strain / strain, modulus / section(true), modulus / section(false), stress / strain / young,
-            lateral_stress / stress};
+    return {-lateral_strain / strain, modulus / samples_.section(true), modulus / samples_.section(false),
+            stress / strain / young, lateral_stress / stress};
   }
 
   // All samples at each of these ratios.
@@ -204,7 +182,7 @@ class Work {
       if (poisson.is_empty()) throw PhysicsFailure("error: no elastic sample came to its end");
       const auto ratio = poisson.where(wanted);
       if (!ratio) refuse_target(poisson);
-      found_.ratio = rounded(*ratio, digits_);
+      found_.ratio = rounded(*ratio, significant);
       if (at(found_.ratio).size() < found_.packings.size()) measure({found_.ratio});
       const std::vector<Elastic> now = at(found_.ratio);
       if (now.empty())
@@ -232,15 +210,15 @@ class Work {
 
   // E of the solid is proportional to that of the bonds.
   void find_young() {
-    found_.young = rounded(plan_.material.young / spread_of(moduli_of(plan_, found_.elastic)).mean, digits_);
+    found_.young = rounded(plan_.material.young / spread_of(moduli_of(plan_, found_.elastic)).mean, significant);
     desk_.log.say(
         fmt::format("found: E of the bonds {:.4g} GPa, {} times that of the solid ({} over the whole section, "
                     "{} by the virial of the core)",
-                    1e-9 * found_.young, format_number(rounded(found_.young / plan_.material.young, digits_)),
+                    1e-9 * found_.young, format_number(rounded(found_.young / plan_.material.young, significant)),
                     inverse_text(&Elastic::box), inverse_text(&Elastic::virial)));
   }
   std::string inverse_text(Real Elastic::*modulus) const {
-    return format_number(rounded(1 / spread_of(each(found_.elastic, modulus)).mean, digits_));
+    return format_number(rounded(1 / spread_of(each(found_.elastic, modulus)).mean, significant));
   }
 
   void look_along_other_axes() {
@@ -265,86 +243,8 @@ class Work {
     return values;
   }
 
-  // --- strength -----------------------------------------------------------------------------------------------------
-
-  static std::string plugin_of(const std::string& criterion) {
-    return criterion == "rdef" ? R"(virial-stress of="beam")"
-                               : fmt::format(R"(bond-stress of="beam" measure="{}")", criterion.substr(4));
-  }
-
-  /// What the first try takes: a multiple of the mean over all bonds or elements at the strength that is wanted, as few
-  /// of these carry the most.
-  Real first_try(const std::string& criterion, const Packed& packing) const {
-    const BondedPacking solid{packing.coordination_bulk, packing.density_bulk, found_.ratio};
-    const Real mean = criterion == "rdef" ? hydrostatic_stress_ratio(solid) : axial_stress_ratio(solid);
-    return rounded((criterion == "rdef" ? 6 : 8) * mean * *plan_.material.strength, digits_);
-  }
-
-  Errand strength_errand(const std::string& criterion, const std::filesystem::path& deck, const Packed& packing,
-                         Real strength) const {
-    constexpr Real longest = 4;  // times the strain at which an elastic solid has the strength that is wanted
-    const Real strain = longest * *plan_.material.strength / plan_.material.young;
-    Errand errand{fmt::format("{},seed={},strength={}-MPa", criterion, packing.seed,
-                              format_number(rounded(1e-6 * strength, digits_))),
-                  deck, sample_of(packing, found_.ratio, found_.young)};
-    add(errand.overrides, {{"strength", format_number(strength) + " Pa"},
-                           {"stretch", length_text(strain * extent())},
-                           {"time", time_text(longest * transits_ * transit())}});
-    return errand;
-  }
-
-  /// The largest stress that the sample carries [Pa]; NaN, with a reason, where it did not break.
-  Real peak(const Outcome& outcome, std::string& trouble) const {
-    const auto force = outcome.column("force", "force");
-    const auto most = std::max_element(force.begin(), force.end());
-    if (!outcome.is_done())
-      trouble = outcome.reason;
-    else if (most == force.end() || !(*most > 0) || std::next(most) == force.end())
-      trouble = "the force has no peak";
-    else
-      return *most / section(plan_.through_centres);
-    return std::numeric_limits<Real>::quiet_NaN();
-  }
-
-  void find_strength(const std::string& criterion) {
-    const auto deck = desk_.write(criterion + ".xml", strength_deck(plan_.decks, plugin_of(criterion)));
-    Strength& found = found_.strengths.emplace_back(Strength{criterion});
-    std::vector<Real> tries;
-    for (const Packed& packing : found_.packings) tries.push_back(first_try(criterion, packing));
-    const std::vector<Real> peaks = peaks_with(criterion, deck, tries, found.trouble);
-    for (std::size_t k = 0; k < peaks.size(); ++k)
-      if (std::isfinite(peaks[k])) found.wanted.push_back(tries[k] * *plan_.material.strength / peaks[k]);
-    if (found.wanted.empty()) {
-      desk_.log.warn(fmt::format("{}: no strength: {}", criterion, found.trouble));
-      return;
-    }
-    found.trouble.clear();
-    found.value = rounded(spread_of(found.wanted).mean, digits_);
-    std::string ignored;
-    for (const Real one : peaks_with(criterion, deck, std::vector<Real>(found_.packings.size(), found.value), ignored))
-      if (std::isfinite(one)) found.confirmed.push_back(one);
-    desk_.log.say(fmt::format("found: {} strength {}; with {:.4g} MPa the solid carries {}", criterion,
-                              stress_text(found.wanted), 1e-6 * found.value, stress_text(found.confirmed)));
-  }
-
-  std::vector<Real> peaks_with(const std::string& criterion, const std::filesystem::path& deck,
-                               const std::vector<Real>& strengths, std::string& trouble) {
-    std::vector<Errand> errands;
-    for (std::size_t k = 0; k < strengths.size(); ++k)
-      errands.push_back(strength_errand(criterion, deck, found_.packings[k], strengths[k]));
-    std::vector<Real> peaks;
-    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      std::string why;
-      peaks.push_back(peak(outcomes[k], why));
-      if (why.empty()) continue;
-      desk_.log.warn(fmt::format("{}: {}", errands[k].name, why));
-      trouble = why;
-    }
-    return peaks;
-  }
-
   const Plan& plan_;
+  Samples samples_;
   const StudyDesk& desk_;
   Location poisson_at_;
   Found found_;

@@ -15,7 +15,8 @@ struct SampleDecks {
   std::int64_t elements;
   Real spread, coordination;
   std::string counted;  ///< whose contacts: all or bulk
-  std::string by;  ///< the mover: static or verlet
+  std::string by;       ///< the mover: static or verlet
+  Real within;          ///< share by which what breaks may be below what breaks first
 };
 
 inline const char* deck_head(bool is_part) {
@@ -100,25 +101,38 @@ inline std::string sample_deck(const SampleDecks& d, const std::string& packing)
       d.is_cylinder ? "0" : "1", d.is_cylinder ? "1" : "0", d.is_cylinder ? "length" : "a", core, volume);
 }
 
-/// `time`: over which it is stretched by `stretch`, and half as long again kept there, to come to rest.
+/// Stretched by `stretch`: at once to the equilibrium; or, with inertia, over `time`, and half as long again kept there,
+/// to come to rest.
 inline std::string elastic_deck(const SampleDecks& d) {
-  const std::string mover = d.by == "static" ? R"(<static increment="${1.5*time}" until="${1.5*time}"/>)"
-                                             : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)";
+  const bool is_static = d.by == "static";
   return fmt::format(
       R"({}<scene name="elastic">
   <include file="sample.xml"/>
-  <parameter name="stretch" value="1e-3 mm"/>
+  <parameter name="stretch" value="1e-4 mm"/>
   <parameter name="time"    value="1 ms"/>
   <parameter name="every"   value="{}"/>
-  <load><pull set="far" axis="${{axis}}" table="0 s 0 m/s, ${{time/2}} ${{2*stretch/time}}, ${{time}} 0 m/s"/></load>
+  <load><pull set="far" axis="${{axis}}" {}/></load>
   <move>{}</move>
 </scene>
 )",
-      deck_head(false), d.by == "static" ? 1 : 100, mover);
+      deck_head(false), is_static ? 1 : 100,
+      is_static ? R"(velocity="${stretch/time}")" : R"(table="0 s 0 m/s, ${time/2} ${2*stretch/time}, ${time} 0 m/s")",
+      is_static ? R"(<static increment="${stretch}" until="${stretch}"/>)"
+                : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)");
 }
 
-/// Stretched until it breaks. `criterion`: the plugin in <fail>.
-inline std::string strength_deck(const SampleDecks& d, const std::string& criterion) {
+/// Stretched until it breaks, by this mover. `criterion`: the plugin in <fail>. Without inertia one breaks after the
+/// other, and an increment ends where the first of them does: it may be long, and a small fall tells that the peak is
+/// behind.
+inline std::string strength_deck(const SampleDecks& d, const std::string& by, const std::string& criterion) {
+  const bool is_static = by == "static";
+  const std::string within = fmt::format(
+      "  <parameter name=\"within\"   value=\"{}\"/>  <!-- what comes so near to breaking first breaks too -->\n",
+      d.within);
+  const std::string mover =
+      is_static ? "<static increment=\"${stretch/4}\" at-once=\"1000\" within=\"${within}\" free=\"pin\"\n"
+                  "                until=\"${stretch} or force of far &lt; 80 percent of its maximum\"/>"
+                : "<verlet bond-damping=\"0.1\" until=\"${time} or force of far &lt; 50 percent of its maximum\"/>";
   return fmt::format(
       R"({}<scene name="strength">
   <include file="sample.xml"/>
@@ -126,15 +140,13 @@ inline std::string strength_deck(const SampleDecks& d, const std::string& criter
   <parameter name="stretch"  value="1 mm"/>           <!-- in which it should have broken -->
   <parameter name="time"     value="1 ms"/>           <!-- that this takes -->
   <parameter name="every"    value="{}"/>
-  <load><pull set="far" axis="${{axis}}" velocity="${{stretch/time}}"{}/></load>
+{}  <load><pull set="far" axis="${{axis}}" velocity="${{stretch/time}}"{}/></load>
   <fail><{} strength="${{strength}}"/></fail>
   <move>{}</move>
 </scene>
 )",
-      deck_head(false), d.by == "static" ? 1 : 20, d.by == "static" ? "" : R"( rise="${time/20}")", criterion,
-      d.by == "static"
-          ? R"(<static increment="${time/100}" until="${time} or force of far &lt; 50 percent of its maximum"/>)"
-          : R"(<verlet bond-damping="0.1" until="${time} or force of far &lt; 50 percent of its maximum"/>)");
+      deck_head(false), is_static ? 1 : 20, is_static ? within : "", is_static ? "" : R"( rise="${time/20}")",
+      criterion, mover);
 }
 
 }  // namespace beadwork::calibration
