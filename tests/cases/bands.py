@@ -405,6 +405,21 @@ def dcb():
     below("ledger's residual over work", residual_over_work(result.energy), 1e-6)
 
 
+# Without inertia: the curve of the explicit deck, pulled at 0.4 m/s (recorded).
+def dcb_static():
+    result = run("dcb/static.xml")
+    curve = result.curve("force")
+    with open(SOURCE / "xml-cases/dcb/reference/quick-explicit.csv", newline="") as file:
+        explicit = [[float(x) for x in row] for row in list(csv.reader(file))[1:]]
+    P = numpy.interp([d for d, _ in explicit], curve["displacement"], curve["force"])
+    apart = [abs(p / f - 1) for p, (d, f) in zip(P, explicit) if d > 0.1e-3]
+    below("force beside the explicit one, largest difference from 0.1 mm on", max(apart), 0.005)
+    near("the end is met exactly", curve["displacement"][-1], 0.8e-3, 1e-12)
+    none("increments that were cut", int(result.summary["mover"]["cuts"]))
+    below("factors over iterations: they are kept", result.summary["mover"]["factors"] / result.summary["mover"]["iterations"], 0.25)
+    below("ledger's residual over work", residual_over_work(result.energy), 2e-3)
+
+
 # The law between rigid blocks: strength times area, and the energy of the mode mix times area.
 def glued_block():
     A, sigma, tau, GI, GII = 50e-6, 10e6, 12e6, 500, 800

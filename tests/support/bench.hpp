@@ -156,6 +156,8 @@ class Bench final : public Workings {
   Moment& moment() override { return moment_; }
   std::vector<Constraint>& constraints() override { return constraints_; }
   void evaluate(bool) override {}
+  Real utilisation() override { return 0; }
+  Real next_moment(Real until) const override { return until; }
   std::span<const std::pair<PairLaw*, BondTable*>> laws() const override { return laws_; }
   Log& log() override { return log_; }
   BondTable& table() { return *laws_.front().second; }
