@@ -182,9 +182,10 @@ bool SceneModel::has_other_pairs() const {
   return pairs() != pairs_;
 }
 
-void SceneModel::take_pairs() {
+const SymmetricMatrix& SceneModel::take_pairs() {
   pairs_ = pairs();
   stiffness_ = StiffnessMatrix(count_, pairs_, turning() ? length_ : 0);
+  return stiffness_.matrix();
 }
 
 std::string SceneModel::axis_of(int unknown) const {

@@ -54,7 +54,9 @@ class SceneModel final : public StaticModel {
   Index loose() const { return loose_; }
   /// The pairs that bonds and contacts make have changed since the stiffness got its pattern.
   bool has_other_pairs() const;
-  void take_pairs();
+  /// The stiffness to be, with the pattern that these give it.
+  const SymmetricMatrix& take_pairs();
+  Index unknowns() const { return per_element() * count_; }
   Index element_of(int unknown) const { return unknown / per_element(); }
   /// In words, what an unknown is: "along x", "about z".
   std::string axis_of(int unknown) const;

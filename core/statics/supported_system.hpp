@@ -15,9 +15,10 @@ class SupportedSystem {
   explicit SupportedSystem(std::unique_ptr<LinearSolver> solver) : solver_(std::move(solver)) {}
 
   LinearSolver& solver() { return *solver_; }
-  /// Factors K where it is free. Matrices of one pattern are analysed once; see `forget_pattern`.
+  /// Takes the pattern of the matrices to come; what factors of it will take in memory is known then [bytes].
+  Real analyse(const SymmetricMatrix& pattern);
+  /// Factors K, of that pattern, where it is free.
   Factored factor(const SymmetricMatrix& k, const Supports& supports);
-  void forget_pattern() { analysed_ = false; }
   bool is_factored() const { return factored_; }
   /// du with K du + C^T lambda = f where it is free, du and C du as lacking. False where an iteration does not end.
   bool solve(const Vector& f, const Lacking& lacking, Vector& du);
@@ -28,7 +29,7 @@ class SupportedSystem {
   void multiply(const Vector& x, Vector& y) const;
 
   std::unique_ptr<LinearSolver> solver_;
-  bool analysed_ = false, factored_ = false;
+  bool factored_ = false;
   Supports supports_;
   SymmetricMatrix whole_, free_;  ///< K, and K with ones in the place of what is fixed
   Real spring_ = 0;               ///< of the pins of means [N/m]

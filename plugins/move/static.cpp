@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/failure.hpp"
+#include "core/base/memory.hpp"
 #include "core/base/text.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/plugin/kinds.hpp"
@@ -145,7 +146,7 @@ class Static final : public Mover {
                                  orientation.view(), spin.view(), torque.view(), radius.view(), held.view()});
     system_.emplace(linear_solver(*solver));
     newton_.emplace(*model_, *system_, limits);
-    model_->take_pairs();
+    const Real memory = analyse();
     seen_breaks_ =
         static_cast<std::size_t>(std::count_if(w.domain().breaks().breaks.begin(), w.domain().breaks().breaks.end(),
                                                [&](const Break& b) { return !resumed || b.step < w.moment().step; }));
@@ -156,8 +157,10 @@ class Static final : public Mover {
     w.evaluate(false);
     model_->react(false);
     w.moment().time_step = next_time(w, 1) - w.moment().time;
-    w.log().say(fmt::format("statics: {} unknowns, {} elements that nothing binds are held where they are",
-                            model_->supports().fixed.size(), model_->loose()));
+    w.log().say(fmt::format("statics: {} unknowns{}; {} elements that nothing binds are held where they are",
+                            model_->supports().fixed.size(),
+                            memory > 0 ? fmt::format(", whose stiffness and factor take {:.3g} MB", memory / 1e6) : "",
+                            model_->loose()));
   }
 
   void step(Workings& w) override {
@@ -201,6 +204,18 @@ class Static final : public Mover {
     }
   }
 
+  // Before a factor is allocated it is known how large it will be.
+  Real analyse() {
+    const Real memory = system_->analyse(model_->take_pairs());
+    if (memory > memory_at_most())
+      refuse(at(),
+             fmt::format("the factor of the stiffness of {} unknowns takes {:.3g} GB, and there are {:.3g} GB: fewer "
+                         "elements, or solver=\"conjugate-gradients\" with slope=\"secant\", which takes a "
+                         "tenth",
+                         model_->unknowns(), memory / 1e9, memory_at_most() / 1e9));
+    return memory;
+  }
+
   // What is free is pinned where the deck asks for it, and where a break has made it so.
   void hold(Workings& w) {
     const bool broken = !w.domain().breaks().breaks.empty();
@@ -226,10 +241,7 @@ class Static final : public Mover {
     broke_ = breaks != seen_breaks_;
     seen_breaks_ = breaks;
     if (broke_) hold(w);
-    if (model_->has_other_pairs()) {
-      model_->take_pairs();
-      system_->forget_pattern();
-    }
+    if (model_->has_other_pairs()) analyse();
   }
 
   // What broke pulls at the supports no more. Contacts that have opened by themselves leave nothing out of balance; what a

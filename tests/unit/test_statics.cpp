@@ -135,6 +135,7 @@ Vector by_multipliers(const MatrixXd& k, const Supports& supports, const Vector&
 
 void expect_as_by_multipliers(const MatrixXd& k, const Supports& supports, const Lacking& lacking) {
   SupportedSystem system(linear_solver("simplicial"));
+  system.analyse(sparse(k));
   EXPECT_TRUE(system.factor(sparse(k), supports).whole);
   const Vector f = random_vector(static_cast<int>(k.rows()), 4);
   Vector du;
