@@ -84,7 +84,7 @@ Real Looks::next_moment(Real until) const {
   Real first = soon;
   for (const Mark& mark : awaited())
     if (const auto time = mark.time(state_.moment, state_.held(), first)) first = std::min(first, *time);
-  return first <= until ? first : first < soon ? now + 0.5 * (first - now) : until;
+  return first <= until + 1e-9 * step ? first : first < soon ? now + 0.5 * (first - now) : until;
 }
 
 void Looks::tell_of_missed_moments(const std::string& instead) const {

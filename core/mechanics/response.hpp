@@ -86,12 +86,12 @@ class Response {
 };
 
 /// Mean and scatter of what several samples gave.
-struct Spread {
+struct Scatter {
   Real mean = 0;
   Real deviation = 0;  ///< standard deviation of a sample; 0 of a single one
 };
-inline Spread spread_of(const std::vector<Real>& values) {
-  Spread spread;
+inline Scatter scatter_of(const std::vector<Real>& values) {
+  Scatter spread;
   const auto count = static_cast<Real>(values.size());
   for (const Real value : values) spread.mean += value / count;
   if (values.size() < 2) return spread;

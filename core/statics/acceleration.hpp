@@ -23,15 +23,11 @@ class Acceleration {
     Vector step = correction;
     if (!changes_.empty()) {
       const auto count = static_cast<Eigen::Index>(changes_.size());
-      Eigen::MatrixXd squares(count, count);
-      Vector seen(count);
-      for (Eigen::Index a = 0; a < count; ++a) {
-        for (Eigen::Index b = 0; b <= a; ++b) squares(a, b) = squares(b, a) = change(a).dot(change(b));
-        seen[a] = change(a).dot(correction);
-      }
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fit;
+      Eigen::MatrixXd seen(correction.size(), count);
+      for (Eigen::Index a = 0; a < count; ++a) seen.col(a) = change(a);
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> fit;
       fit.setThreshold(1e-10);  // steps that say the same count once
-      const Vector share = fit.compute(squares).solve(seen);
+      const Vector share = fit.compute(seen).solve(correction);
       for (Eigen::Index a = 0; a < count; ++a) step -= share[a] * (steps_[static_cast<std::size_t>(a)] + change(a));
     }
     steps_.push_back(step);

@@ -26,6 +26,8 @@ class Timer {
 // the stiffness is too far off.
 constexpr int patience = 10;
 constexpr Real slow = 2;
+// An equilibrium so many times as far away as the first stiffness has it is another one: something has snapped.
+constexpr Real far = 4;
 
 }  // namespace
 
@@ -34,6 +36,7 @@ const char* in_words(Reason reason) {
     case Reason::converged: return "converged";
     case Reason::too_many_iterations: return "too many iterations";
     case Reason::grows: return "the residual grows";
+    case Reason::far_away: return "the next equilibrium lies far away (snap-back: 'opening' follows it)";
     case Reason::no_number: return "forces are no numbers";
     case Reason::singular: return "the stiffness is singular";
     case Reason::linear_solver: return "the linear solver did not come to its end";
@@ -71,7 +74,7 @@ const Vector& Newton::forces() {
 }
 
 NewtonResult Newton::go(Real time, Manner manner) {
-  const bool careful = manner == Manner::careful;
+  const bool careful = manner == Manner::careful, quick = manner == Manner::quick;
   const Slope slope = careful ? Slope::secant : limits_.slope;
   NewtonResult result;
   model_.begin_trial(time);
@@ -80,10 +83,10 @@ NewtonResult Newton::go(Real time, Manner manner) {
   const Vector at_start = f;
   Vector unbalanced, du, moved = Vector::Zero(f.size());
   const Real loads = model_.supports().unbalanced(f).norm();
-  Real before = loads, least = -1;
+  Real before = loads, least = -1, first = -1;
   int growths = 0, with_this_factor = 0;
   Acceleration acceleration;
-  bool forced = careful || stale_ || !system_.is_factored();
+  bool forced = !quick || stale_ || !system_.is_factored();
 
   for (result.iterations = 1; result.iterations <= (careful ? 8 : 1) * limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
@@ -92,13 +95,11 @@ NewtonResult Newton::go(Real time, Manner manner) {
       forced = false;
       with_this_factor = 0;
       acceleration.forget();
-      if (!factored.whole || factored.weakest >= 0) {
-        result.weakest = factored.weakest;
-        return result.reason = Reason::singular, result;
-      }
+      if (factored.weakest >= 0) result.weakest = factored.weakest;  // where nothing asks for it, it stays
+      if (!factored.whole) return result.reason = Reason::singular, result;
     }
     if (!solve(f, model_.lacking(), du)) return result.reason = Reason::linear_solver, result;
-    if (!careful) du = acceleration.step(du);
+    if (quick) du = acceleration.step(du);
     model_.move(du);
     moved += du;
     const Vector f_before = f;
@@ -117,11 +118,13 @@ NewtonResult Newton::go(Real time, Manner manner) {
     const bool spent = std::abs(unbalanced.dot(du)) <= limits_.tolerance * energy_reference;
     if (balanced && ((still && spent) || left <= 1e-3 * limits_.tolerance * result.reference + floor)) return result;
 
-    if (!careful && result.iterations > 1 && left > before && left > 10 * floor && ++growths >= 6)
+    if (quick && result.iterations > 1 && left > before && left > 10 * floor && ++growths >= 4)
       return result.reason = Reason::grows, result;
+    if (first < 0) first = du.norm();
+    if (careful && moved.norm() > far * first) return result.reason = Reason::far_away, result;
     if (least < 0 || left < least) least = left;
-    forced = careful || ++with_this_factor >= patience ||
-             left > slow * std::max(least, limits_.tolerance * result.reference);
+    forced =
+        !quick || ++with_this_factor >= patience || left > slow * std::max(least, limits_.tolerance * result.reference);
     before = left;
   }
   --result.iterations;
@@ -137,10 +140,8 @@ NewtonResult Newton::go_by(const Vector& gradient, Real value) {
   for (result.iterations = 1; result.iterations <= limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
     const Factored factored = factor(limits_.slope);
-    if (!factored.whole || factored.weakest >= 0) {
-      result.weakest = factored.weakest;
-      return result.reason = Reason::singular, result;
-    }
+    if (factored.weakest >= 0) result.weakest = factored.weakest;
+    if (!factored.whole) return result.reason = Reason::singular, result;
     Vector du, per_second;
     if (!solve(f, model_.lacking(), du) || !solve(model_.force_rates(), model_.support_rates(), per_second))
       return result.reason = Reason::linear_solver, result;

@@ -9,7 +9,7 @@
 namespace beadwork {
 
 /// Why an iteration ended.
-enum class Reason { converged, too_many_iterations, grows, no_number, singular, linear_solver };
+enum class Reason { converged, too_many_iterations, grows, far_away, no_number, singular, linear_solver };
 /// In words, for the log.
 const char* in_words(Reason reason);
 
@@ -29,9 +29,9 @@ struct NewtonResult {
   bool converged() const { return reason == Reason::converged; }
 };
 
-/// quick: the stiffness of the deck's choice, kept while it serves; careful: a new secant stiffness at each iteration,
-/// which finds the way where bonds open and close by turns.
-enum class Manner { quick, careful };
+/// quick: the stiffness of the deck's choice, kept while it serves. thorough: a new one at each iteration, for large
+/// turns. careful: a new secant one, which finds the way where bonds open and close by turns.
+enum class Manner { quick, thorough, careful };
 
 /// What solving has cost so far.
 struct NewtonCosts {

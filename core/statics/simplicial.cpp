@@ -16,7 +16,7 @@ class Simplicial final : public LinearSolver {
   Factored factor(const SymmetricMatrix& matrix) override {
     Factored result;
     ldlt_.factorize(matrix.lower());
-    if (ldlt_.info() != Eigen::Success) return {false, -1, -1};
+    if (ldlt_.info() != Eigen::Success) return {false, -1, where_it_broke_down()};
     const Vector pivots = ldlt_.vectorD();
     Eigen::Index weakest = 0;
     Real least = std::numeric_limits<Real>::infinity();
@@ -36,6 +36,14 @@ class Simplicial final : public LinearSolver {
   }
 
  private:
+  // The first pivot that is nothing at all; those behind it were not found.
+  int where_it_broke_down() const {
+    const Vector pivots = ldlt_.vectorD();
+    for (Eigen::Index k = 0; k < pivots.size(); ++k)
+      if (pivots[k] == 0) return static_cast<int>(ldlt_.permutationPinv().indices()[k]);
+    return -1;
+  }
+
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>, Eigen::Lower> ldlt_;
 };
 

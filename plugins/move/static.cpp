@@ -319,14 +319,19 @@ class Static final : public Mover {
 
   NewtonResult go(Workings& w, Real to) {
     w.moment().time_step = to - w.moment().time;
-    NewtonResult result = newton_->go(to);
-    spent[0] += result.iterations;
-    if (result.converged() || result.reason == Reason::singular) return result;
-    model_->give_up();
-    result = newton_->go(to, Manner::careful);
-    spent[0] += result.iterations;
-    carefully[0] += 1;
-    newton_->forget_factor();
+    NewtonResult result;
+    for (const Manner manner : {Manner::quick, Manner::thorough, Manner::careful}) {
+      if (manner == Manner::careful && opening.given()) break;  // it knows another way
+      if (manner != Manner::quick) model_->give_up(), w.moment().time_step = to - w.moment().time;
+      result = newton_->go(to, manner);
+      spent[0] += result.iterations;
+      if (manner == Manner::careful) carefully[0] += 1;
+      if (result.converged() || result.reason == Reason::singular) break;
+      newton_->forget_factor();
+    }
+    if (result.converged() && result.weakest >= 0)
+      w.log().say_once("mechanism",
+                       fmt::format("step {}: {}; no load asks for it, and it stays", w.moment().step, told(w, result)));
     return result;
   }
 

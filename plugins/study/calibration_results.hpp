@@ -24,7 +24,7 @@ std::vector<Real> each(const std::vector<T>& all, Real T::*member) {
 /// "0.372 +- 0.004"
 inline std::string spread_text(const std::vector<Real>& values, int digits = 4) {
   if (values.empty()) return "not found";
-  const Spread spread = spread_of(values);
+  const Scatter spread = scatter_of(values);
   if (values.size() < 2) return fmt::format("{:.{}g}", spread.mean, digits);
   return fmt::format("{:.{}g} +- {:.1g}", spread.mean, digits, spread.deviation);
 }
@@ -74,7 +74,7 @@ inline std::string parameters(const Plan& plan, const Found& found, const std::s
   text += parameter_line(name + "poisson", format_number(plan.bond_poisson),
                          "of the bonds; the solid hardly depends on it");
   if (m.density) {
-    const Real packed = spread_of(each(found.packings, &Packed::density_bulk)).mean;
+    const Real packed = scatter_of(each(found.packings, &Packed::density_bulk)).mean;
     text += parameter_line(name + "density", format_number(rounded(*m.density / packed, 5)) + " kg/m^3",
                            fmt::format("of the elements: that of the solid is {:.6g} kg/m^3", *m.density));
   }
@@ -111,18 +111,18 @@ inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& 
       nu.push_back(curves.poisson.at(ratio));
       modulus.push_back(curves.stiffness.at(ratio));
     }
-    const Spread s = spread_of(nu), t = spread_of(modulus);
+    const Scatter s = scatter_of(nu), t = scatter_of(modulus);
     poisson_rows.push_back({ratio, s.mean, s.deviation});
     poisson_rows.back().insert(poisson_rows.back().end(), nu.begin(), nu.end());
     stiffness_rows.push_back({ratio, t.mean, t.deviation});
     stiffness_rows.back().insert(stiffness_rows.back().end(), modulus.begin(), modulus.end());
-    const Real z = spread_of(each(found.packings, &Packed::coordination_bulk)).mean;
-    const Real phi = spread_of(each(found.packings, &Packed::density_bulk)).mean;
+    const Real z = scatter_of(each(found.packings, &Packed::coordination_bulk)).mean;
+    const Real phi = scatter_of(each(found.packings, &Packed::density_bulk)).mean;
     stiffness_rows.back().push_back(stiffness_ratio({z, phi, ratio}, s.mean));
   }
   desk.curve("poisson", poisson, poisson_rows);
   desk.curve("stiffness", stiffness, stiffness_rows);
-  const Real modulus = spread_of(moduli_of(plan, found.elastic)).mean;
+  const Real modulus = scatter_of(moduli_of(plan, found.elastic)).mean;
   desk.curve("young",
              {.columns = {{"young-of-bonds", "Pa"}, {"young", "Pa"}},
               .title = "Young's modulus of the solid at the radius ratio that was found",
@@ -132,7 +132,7 @@ inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& 
 }
 
 inline std::string numbers_json(const std::vector<Real>& values) {
-  const Spread spread = spread_of(values);
+  const Scatter spread = scatter_of(values);
   return fmt::format(R"({{"mean":{},"deviation":{},"samples":[{}]}})", format_number(spread.mean),
                      format_number(spread.deviation), fmt::join(values, ","));
 }
@@ -153,9 +153,9 @@ inline std::string result_json(const Plan& plan, const Found& found) {
       format_number(found.ratio), numbers_json(found.ratios), format_number(found.young),
       numbers_json(each(found.elastic, &Elastic::poisson)), numbers_json(each(found.elastic, &Elastic::centres)),
       numbers_json(each(found.elastic, &Elastic::box)), numbers_json(each(found.elastic, &Elastic::virial)),
-      format_number(stiffness_ratio({spread_of(each(found.packings, &Packed::coordination_bulk)).mean,
-                                     spread_of(each(found.packings, &Packed::density_bulk)).mean, found.ratio},
-                                    spread_of(each(found.elastic, &Elastic::poisson)).mean)),
+      format_number(stiffness_ratio({scatter_of(each(found.packings, &Packed::coordination_bulk)).mean,
+                                     scatter_of(each(found.packings, &Packed::density_bulk)).mean, found.ratio},
+                                    scatter_of(each(found.elastic, &Elastic::poisson)).mean)),
       numbers_json(each(found.elastic, &Elastic::sideways)));
   for (const auto& [axis, elastic] : found.along)
     text += fmt::format(R"(,"along_{}":{{"modulus_ratio":{},"poisson":{}}})", axis,

@@ -169,7 +169,7 @@ class Work {
     Response mean;
     for (const auto& [key, one] : elastic_) {
       const std::vector<Elastic> all = at(key.second);
-      if (all.size() == found_.packings.size()) mean.note(key.second, spread_of(each(all, &Elastic::poisson)).mean);
+      if (all.size() == found_.packings.size()) mean.note(key.second, scatter_of(each(all, &Elastic::poisson)).mean);
     }
     return mean;
   }
@@ -187,7 +187,7 @@ class Work {
       const std::vector<Elastic> now = at(found_.ratio);
       if (now.empty())
         throw PhysicsFailure("error: no elastic sample came to its end at the radius ratio that was found");
-      if (std::abs(spread_of(each(now, &Elastic::poisson)).mean - wanted) < close_) break;
+      if (std::abs(scatter_of(each(now, &Elastic::poisson)).mean - wanted) < close_) break;
     }
     found_.elastic = at(found_.ratio);
     for (const Curves& curves : found_.curves)
@@ -210,7 +210,7 @@ class Work {
 
   // E of the solid is proportional to that of the bonds.
   void find_young() {
-    found_.young = rounded(plan_.material.young / spread_of(moduli_of(plan_, found_.elastic)).mean, significant);
+    found_.young = rounded(plan_.material.young / scatter_of(moduli_of(plan_, found_.elastic)).mean, significant);
     desk_.log.say(
         fmt::format("found: E of the bonds {:.4g} GPa, {} times that of the solid ({} over the whole section, "
                     "{} by the virial of the core)",
@@ -218,7 +218,7 @@ class Work {
                     inverse_text(&Elastic::box), inverse_text(&Elastic::virial)));
   }
   std::string inverse_text(Real Elastic::*modulus) const {
-    return format_number(rounded(1 / spread_of(each(found_.elastic, modulus)).mean, significant));
+    return format_number(rounded(1 / scatter_of(each(found_.elastic, modulus)).mean, significant));
   }
 
   void look_along_other_axes() {

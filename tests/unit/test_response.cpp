@@ -59,11 +59,11 @@ TEST(Response, of_points_that_scatter_is_read_at_the_first_place_that_has_the_va
   EXPECT_LT(*noisy.where(0.31), 2);
 }
 
-TEST(Spread, is_that_of_a_sample) {
-  const Spread spread = spread_of({1, 2, 3, 4});
+TEST(Scatter, is_that_of_a_sample) {
+  const Scatter spread = scatter_of({1, 2, 3, 4});
   EXPECT_DOUBLE_EQ(spread.mean, 2.5);
   EXPECT_DOUBLE_EQ(spread.deviation, std::sqrt(5. / 3));
-  EXPECT_EQ(spread_of({7}).deviation, 0);
+  EXPECT_EQ(scatter_of({7}).deviation, 0);
 }
 
 // Derived: K7 of both of the paper's materials, with Z = 6.2 and phi = 0.64.
