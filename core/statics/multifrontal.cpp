@@ -1,6 +1,7 @@
 // MUMPS, sequential: a multifrontal L D L^T with pivoting, for matrices of any inertia.
 
 #include <dmumps_c.h>
+#include <metis.h>
 
 #include <cmath>
 #include <new>
@@ -24,7 +25,6 @@ class Multifrontal final : public LinearSolver {
     mumps_.comm_fortran = use_whole_communicator;
     call(-1);
     for (int k = 0; k < 4; ++k) mumps_.icntl[k] = k < 3 ? -1 : 0;  // it says nothing by itself
-    control(7) = 4;                                                // order by PORD
     control(14) = 40;                                              // percent of room beyond the estimate
     control(24) = 1;                                               // finds pivots that are as good as nothing
   }
@@ -41,6 +41,7 @@ class Multifrontal final : public LinearSolver {
         rows_.push_back(pattern.row[static_cast<std::size_t>(k)] + 1);
         columns_.push_back(column + 1);
       }
+    order(pattern);
     mumps_.n = pattern.size();
     mumps_.nnz = static_cast<MUMPS_INT8>(rows_.size());
     mumps_.irn = rows_.data();
@@ -77,6 +78,36 @@ class Multifrontal final : public LinearSolver {
   }
 
  private:
+  // By nested dissection, of our own call to METIS: it is the same each time, which an order that MUMPS asks a library
+  // for need not be, and small matrices, on which some orderings stumble, are left to MUMPS' own minimum degree.
+  void order(const SymmetricMatrix& pattern) {
+    constexpr int small = 500;
+    control(7) = pattern.size() < small ? 0 : 1;
+    if (pattern.size() < small) return;
+    const auto n = static_cast<std::size_t>(pattern.size());
+    std::vector<idx_t> begin(n + 1, 0), neighbours;
+    for (std::size_t c = 0; c < n; ++c)
+      for (int k = pattern.begin[c] + 1; k < pattern.begin[c + 1]; ++k)
+        ++begin[c + 1], ++begin[static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)]) + 1];
+    for (std::size_t c = 0; c < n; ++c) begin[c + 1] += begin[c];
+    neighbours.resize(static_cast<std::size_t>(begin[n]));
+    std::vector<idx_t> next(begin.begin(), begin.end() - 1);
+    for (std::size_t c = 0; c < n; ++c)
+      for (int k = pattern.begin[c] + 1; k < pattern.begin[c + 1]; ++k) {
+        const auto r = static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)]);
+        neighbours[static_cast<std::size_t>(next[c]++)] = static_cast<idx_t>(r);
+        neighbours[static_cast<std::size_t>(next[r]++)] = static_cast<idx_t>(c);
+      }
+    auto count = static_cast<idx_t>(n);
+    std::vector<idx_t> old_of(n), place_of(n);
+    if (METIS_NodeND(&count, begin.data(), neighbours.data(), nullptr, nullptr, old_of.data(), place_of.data()) !=
+        METIS_OK)
+      throw MachineFailure("METIS found no order of elimination");
+    places_.resize(n);
+    for (std::size_t u = 0; u < n; ++u) places_[u] = place_of[u] + 1;
+    mumps_.perm_in = places_.data();
+  }
+
   // Numbered as in its manual.
   int& control(int number) { return mumps_.icntl[number - 1]; }
   void call(int job) {
@@ -90,7 +121,7 @@ class Multifrontal final : public LinearSolver {
   }
 
   DMUMPS_STRUC_C mumps_{};
-  std::vector<int> rows_, columns_;  // counted from 1
+  std::vector<int> rows_, columns_, places_;  // counted from 1
 };
 
 }  // namespace

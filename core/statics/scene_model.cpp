@@ -124,20 +124,17 @@ std::optional<Vector> SceneModel::opening(const std::string& family, bool soften
   return gradient / sum;
 }
 
-// Places are known to the last digit of the largest of them, and so are elongations.
-Real SceneModel::noise() const {
-  const SymmetricMatrix& k = stiffness_.matrix();
-  Real square = 0;
-  for (int u = 0; u < k.size(); ++u) square += k.diagonal(u) * k.diagonal(u);
-  return std::numeric_limits<Real>::epsilon() * std::max(extent_, length_) * std::sqrt(square);
-}
-
-// Energies of turns are small differences of cosines.
-Real SceneModel::energy_noise() const {
-  const SymmetricMatrix& k = stiffness_.matrix();
-  Real sum = 0;
-  for (int u = 0; u < k.size(); ++u) sum += std::abs(k.diagonal(u));
-  return 4 * std::numeric_limits<Real>::epsilon() * length_ * length_ * sum;
+// Places are known to the last digit of the largest of them, and so are elongations; energies of turns are small
+// differences of cosines.
+SceneModel::Noise SceneModel::noise_here() {
+  constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+  const SymmetricMatrix& k = stiffness(Slope::secant);
+  Real sum = 0, square = 0;
+  for (int u = 0; u < k.size(); ++u) {
+    sum += std::abs(k.diagonal(u));
+    square += k.diagonal(u) * k.diagonal(u);
+  }
+  return {epsilon * std::max(extent_, length_) * std::sqrt(square), 4 * epsilon * length_ * length_ * sum};
 }
 
 const SymmetricMatrix& SceneModel::stiffness(Slope slope) {

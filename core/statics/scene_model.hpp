@@ -34,11 +34,16 @@ class SceneModel final : public StaticModel {
   Lacking support_rates() const override;
   Vector moved() const override;
   Real time() const override { return w_.moment().time; }
-  Real noise() const override;
-  /// Energies smaller than this are round-off [J].
-  Real energy_noise() const;
+  Real noise() const override { return noise_; }
   void give_up() override;
 
+  /// Round-off of forces [N] and of energies [J], by the stiffness at the present state.
+  struct Noise {
+    Real force, energy;
+  };
+  Noise noise_here();
+  /// Of forces, for as long as the stage lasts: a run that is resumed goes by the same.
+  void take_noise(Real force) { noise_ = force; }
   /// The trial state is accepted: laws note what they keep, what is prescribed tells its forces and its work.
   void accept();
   /// Forces at the state as it stands are those of the supports: where a run or a stage begins.
@@ -94,6 +99,7 @@ class SceneModel final : public StaticModel {
   StiffnessMatrix stiffness_;
   std::vector<std::pair<Index, Index>> pairs_;
   Vector forces_;
+  Real noise_ = 0;  ///< [N]
   Index loose_ = 0;
 };
 

@@ -111,6 +111,9 @@ class Static final : public Mover {
   Keeps<Real> used{this, {"utilisation", On::scene, "1", "Highest utilisation at the last equilibrium"}};
   Keeps<Real> does{this, {"increment-force", On::scene, "N", "What the last increment has changed of the forces"}};
   Keeps<Real> released{this, {"released", On::scene, "J", "Energy set free by breaks on the way to a new equilibrium"}};
+  Keeps<Real> noise{this,
+                    {"force-noise", On::scene, "N", "Round-off of forces, by the stiffness when the stage began"}};
+  Keeps<Real> energy_noise{this, {"energy-noise", On::scene, "J", "Round-off of energies, likewise"}};
   Keeps<Real> spent{this, {"iterations", On::scene, "1", "Iterations so far"}};
   Keeps<Real> cuts{this, {"cuts", On::scene, "1", "Increments that were cut so far"}};
   Keeps<Real> carefully{this, {"carefully", On::scene, "1", "Increments that were tried with a new secant each time"}};
@@ -150,6 +153,11 @@ class Static final : public Mover {
     seen_breaks_ =
         static_cast<std::size_t>(std::count_if(w.domain().breaks().breaks.begin(), w.domain().breaks().breaks.end(),
                                                [&](const Break& b) { return !resumed || b.step < w.moment().step; }));
+    if (!resumed) {
+      const SceneModel::Noise here = model_->noise_here();
+      noise[0] = here.force, energy_noise[0] = here.energy;
+    }
+    model_->take_noise(noise[0]);
     if (resumed) return model_->support_as_before();
     hold(w);
     share[0] = 1, used[0] = 0, does[0] = 0;
@@ -178,7 +186,7 @@ class Static final : public Mover {
     if (released[0] != 0) sink.dissipated("redistribution", released[0]);
   }
   // Round-off alone, where nothing has been done yet.
-  Real swing() const override { return model_ ? model_->energy_noise() : 0; }
+  Real swing() const override { return energy_noise[0]; }
   std::vector<MoverFigure> figures() const override {
     if (!newton_) return {};
     const NewtonCosts& costs = newton_->costs();

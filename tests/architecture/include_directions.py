@@ -26,7 +26,7 @@ ALLOWED = {
 # Each of these libraries is known to one part only.
 OWNERS = {"tinyxml2.h": "deck", "muParser.h": "deck", "hdf5.h": "io", "boost/dll/": "plugin",
           "udunits2.h": "base", "boost/geometry": "domain", "CLI/": "workbench", "spdlog/": "workbench",
-          "png.h": "workbench", "dmumps_c.h": "statics"}
+          "png.h": "workbench", "dmumps_c.h": "statics", "metis.h": "statics"}
 
 
 def part_of(path):
