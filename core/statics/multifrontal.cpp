@@ -11,6 +11,9 @@
 
 #include <fmt/format.h>
 
+/// Of OpenBLAS, where MUMPS was linked with it: more threads would change bits.
+extern "C" void openblas_set_num_threads(int count) __attribute__((weak));
+
 namespace beadwork {
 
 namespace {
@@ -20,6 +23,7 @@ constexpr int use_whole_communicator = -987654;  // MUMPS' own number for it
 class Multifrontal final : public LinearSolver {
  public:
   Multifrontal() {
+    if (openblas_set_num_threads) openblas_set_num_threads(1);
     mumps_.par = 1;
     mumps_.sym = 2;  // symmetric, of any inertia
     mumps_.comm_fortran = use_whole_communicator;
