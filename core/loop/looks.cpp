@@ -48,7 +48,7 @@ void Looks::turn_of(std::size_t watcher) {
 void Looks::note_marks(std::size_t watcher) {
   const auto& marks = state_.stage().marks[watcher];
   for (std::size_t k = 0; k < marks.size(); ++k)
-    if (marks[k].reached(state_.moment, state_.held())) remembered()[watcher].looked[k] = 1;
+    if (marks[k].reached(state_.moment_for_marks(), state_.held())) remembered()[watcher].looked[k] = 1;
 }
 
 // For its cadence, or at a moment of its 'at' that has not had its look.
@@ -58,7 +58,7 @@ bool Looks::due(std::size_t watcher) const {
   if (blaming(who, state_.moment, [&] { return who.wants(state_.moment); })) return true;
   const auto& marks = now.marks[watcher];
   for (std::size_t k = 0; k < marks.size(); ++k)
-    if (remembered()[watcher].looked[k] == 0 && marks[k].reached(state_.moment, state_.held())) return true;
+    if (remembered()[watcher].looked[k] == 0 && marks[k].reached(state_.moment_for_marks(), state_.held())) return true;
   return false;
 }
 
@@ -79,12 +79,12 @@ std::vector<Mark> Looks::awaited() const {
 }
 
 Real Looks::next_moment(Real until) const {
+  state_.meets_moments = true;
   const Real now = state_.moment.time, step = until - now;
-  const Real soon = now + 1.6 * step;  // a mark half a step ahead counts as reached, also where it is rounded
-  Real first = soon;
+  Real first = until + 1e-9 * step;
   for (const Mark& mark : awaited())
     if (const auto time = mark.time(state_.moment, state_.held(), first)) first = std::min(first, *time);
-  return first <= until + 1e-9 * step ? first : first < soon ? now + 0.5 * (first - now) : until;
+  return first < until + 1e-9 * step ? first : until;
 }
 
 void Looks::tell_of_missed_moments(const std::string& instead) const {

@@ -41,8 +41,8 @@ class Looks {
   void show_to(Watcher& watcher);
   /// Whether a watcher is due that reads what laws offer of each bond.
   bool offer_is_due() const;
-  /// The first moment up to `until`, after the present, that the end of the stage or an 'at' waits for; one that comes
-  /// soon after it is met half-way, as moments count as reached half a step before [s].
+  /// The first moment up to `until`, after the present, that the end of the stage or an 'at' waits for [s]. Who asks
+  /// meets it: from now on none counts as reached half a step before.
   Real next_moment(Real until) const;
   /// Moments of 'at' that never came, told at the end of the last stage in which their watcher stands.
   void tell_of_missed_moments(const std::string& instead) const;

@@ -66,6 +66,7 @@ void Run::go_through_stages() {
 
 void Run::enter_stage(std::size_t number, bool resumed) {
   state_.phase = RunState::Phase::within_step;
+  state_.meets_moments = false;
   state_.moment.stage = static_cast<int>(number);
   try {
     resumed ? resume_stage() : begin_stage();
@@ -138,7 +139,7 @@ bool Run::over() {
   }
   std::vector<Peak>& peaks = state_.peaks[state_.stage_number()];
   raise(peaks, state_.moment, state_.held());
-  return state_.stage().until->reached(state_.moment, state_.held(), peaks,
+  return state_.stage().until->reached(state_.moment_for_marks(), state_.held(), peaks,
                                        [this](const std::string& name) { return state_.told_by(name); });
 }
 

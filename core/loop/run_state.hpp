@@ -47,6 +47,14 @@ class RunState {
   Kept searches;                ///< how often they were
   std::vector<ActingLaw> laws;  ///< of the present stage
 
+  /// The mover of the stage has asked for the next moment, and meets it: none counts as reached half a step before.
+  bool meets_moments = false;
+  Moment moment_for_marks() const {
+    Moment now = moment;
+    if (meets_moments) now.time_step *= 1e-9;
+    return now;
+  }
+
   Domain& domain() const { return *scene.domain; }
   std::size_t stage_number() const { return static_cast<std::size_t>(moment.stage); }
   Stage& stage() const { return scene.stages[stage_number()]; }

@@ -76,6 +76,7 @@ const Vector& Newton::forces() {
 NewtonResult Newton::go(Real time, Manner manner) {
   const bool careful = manner == Manner::careful, quick = manner == Manner::quick;
   const Slope slope = careful ? Slope::secant : limits_.slope;
+  const bool goes_on = time != model_.time();  // at one load something breaks, and may go far
   NewtonResult result;
   model_.begin_trial(time);
   Vector f = forces();
@@ -100,12 +101,11 @@ NewtonResult Newton::go(Real time, Manner manner) {
     }
     if (!solve(f, model_.lacking(), du)) return result.reason = Reason::linear_solver, result;
     if (quick) du = acceleration.step(du);
+    if (!du.allFinite()) return result.reason = Reason::no_number, result;
     model_.move(du);
     moved += du;
-    const Vector f_before = f;
     f = forces();
     if (!f.allFinite()) return result.reason = Reason::no_number, result;
-    result.released += 0.5 * (f_before + f).dot(du);
 
     unbalanced = model_.supports().unbalanced(f);
     const Real left = unbalanced.norm();
@@ -116,12 +116,15 @@ NewtonResult Newton::go(Real time, Manner manner) {
     const bool balanced = left <= limits_.tolerance * result.reference + floor;
     const bool still = du.norm() <= limits_.tolerance * moved.norm();
     const bool spent = std::abs(unbalanced.dot(du)) <= limits_.tolerance * energy_reference;
-    if (balanced && ((still && spent) || left <= 1e-3 * limits_.tolerance * result.reference + floor)) return result;
+    if (first < 0) first = du.norm();
+    if (balanced && ((still && spent) || left <= 1e-3 * limits_.tolerance * result.reference + floor)) {
+      if (goes_on && moved.norm() > far * first) result.reason = Reason::far_away;
+      return result;
+    }
 
     if (quick && result.iterations > 1 && left > before && left > 10 * floor && ++growths >= 4)
       return result.reason = Reason::grows, result;
-    if (first < 0) first = du.norm();
-    if (careful && moved.norm() > far * first) return result.reason = Reason::far_away, result;
+    if (careful && goes_on && moved.norm() > far * first) return result.reason = Reason::far_away, result;
     if (least < 0 || left < least) least = left;
     forced =
         !quick || ++with_this_factor >= patience || left > slow * std::max(least, limits_.tolerance * result.reference);

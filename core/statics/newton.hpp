@@ -24,7 +24,6 @@ struct NewtonResult {
   int iterations = 0;
   Real residual = 0;   ///< what is unbalanced, over what the increment does
   Real reference = 0;  ///< what the increment does [N]
-  Real released = 0;   ///< work of unbalanced forces on the way to the equilibrium [J]
   int weakest = -1;    ///< unknown that nothing holds, of a singular system
   bool converged() const { return reason == Reason::converged; }
 };

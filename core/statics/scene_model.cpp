@@ -14,7 +14,7 @@ namespace {
 
 // A turn of any length: the series is good for 2 rad.
 Quat turn_by(const Vec3& turn) {
-  if (turn.squaredNorm() <= 1) return increment<Real>(turn);
+  if (!(turn.squaredNorm() > 1)) return increment<Real>(turn);
   const Quat half = turn_by(0.5 * turn);
   return half * half;
 }
@@ -100,6 +100,32 @@ Vector SceneModel::moved() const {
     if (turning()) all.segment<3>(unknown(i, 3)) = length_ * turned_[static_cast<std::size_t>(i)];
   }
   return all;
+}
+
+// Simpson's rule along the chord, places in straight lines and turns about fixed axes: a path that stretches nothing more
+// than both ends do, where the way of an iteration may lead anywhere.
+Real SceneModel::work_on_the_way() {
+  constexpr int pieces = 8;
+  const Vector whole = moved();
+  std::vector<Vec3> places(places_.size());
+  std::vector<Quat> orientations(orientations_.size());
+  for (Index i = 0; i < count_; ++i) {
+    places[static_cast<std::size_t>(i)] = rows_.place[i];
+    if (turning()) orientations[static_cast<std::size_t>(i)] = rows_.orientation[i];
+  }
+  const std::vector<Vec3> turned = turned_;
+  Real work = 0;
+  for (int k = 0; k <= pieces; ++k) {
+    give_up();
+    move(whole * (static_cast<Real>(k) / pieces));
+    work += (k == 0 || k == pieces ? 1 : k % 2 == 1 ? 4 : 2) * forces().dot(whole) / (3 * pieces);
+  }
+  for (Index i = 0; i < count_; ++i) {
+    rows_.place.set(i, places[static_cast<std::size_t>(i)]);
+    if (turning()) rows_.orientation.set(i, orientations[static_cast<std::size_t>(i)]);
+  }
+  turned_ = turned;
+  return work;
 }
 
 std::optional<Vector> SceneModel::opening(const std::string& family, bool softening_only) const {

@@ -52,6 +52,8 @@ class SceneModel final : public StaticModel {
   std::vector<FreeBody> support(bool pin);
   /// The same supports, after a restart: free bodies are held where they were.
   void support_as_before();
+  /// Work that the forces do from the last accepted state to the trial state, at the present loads [J].
+  Real work_on_the_way();
   /// The mean opening of the bonds of a family that soften, or of all, each with the weight of what it has opened in the
   /// last step, as a product with what elements move. Nothing if there is no such bond.
   std::optional<Vector> opening(const std::string& family, bool softening_only) const;

@@ -158,6 +158,7 @@ class Static final : public Mover {
       noise[0] = here.force, energy_noise[0] = here.energy;
     }
     model_->take_noise(noise[0]);
+    w.next_moment(w.moment().time);  // from now on moments are met exactly
     if (resumed) return model_->support_as_before();
     hold(w);
     share[0] = 1, used[0] = 0, does[0] = 0;
@@ -175,7 +176,8 @@ class Static final : public Mover {
     heed_changes(w);
     ++w.moment().step;
     newton_->forget_factor();  // so that a run that is resumed finds the same bits
-    if (broke_ && is_out_of_balance())
+    const bool begins = w.moment().step == w.moment().stage_step + 1;
+    if ((broke_ || begins) && is_out_of_balance())
       settle(w);
     else
       advance(w);
@@ -260,14 +262,13 @@ class Static final : public Mover {
     return model_->supports().unbalanced(f).norm() > *tolerance * does[0] + model_->noise();
   }
 
-  /// The equilibrium at the present loads, once something has broken.
+  /// The equilibrium at the present loads, once something has broken, or where a stage begins with loads on it.
   void settle(Workings& w) {
-    w.moment().time_step = 0;
-    const NewtonResult result = newton_->go(w.moment().time);
-    spent[0] += result.iterations;
+    const NewtonResult result = go(w, w.moment().time);
     if (!result.converged()) fail(w, result, 0);
     events[0] += 1;
-    released[0] += result.released;
+    released[0] += model_->work_on_the_way();
+    does[0] = std::max(result.reference, does[0]);
     worst[0] = std::max(worst[0], result.residual);
     used[0] = std::min<Real>(1, w.utilisation());
   }
@@ -369,10 +370,14 @@ class Static final : public Mover {
     const Real now = w.moment().time;
     if (time_step.given()) return w.next_moment(now + share_of_whole * *time_step);
     const auto to = time_of_displacement(w.constraints(), now, share_of_whole * *increment);
-    if (!to)
+    if (!to) {
+      constexpr Real ever = 1e9;  // s: for whatever the stage still waits
+      const Real next = w.next_moment(now + ever);
+      if (next < now + 0.5 * ever) return next;
       refuse(increment.at(),
              "nothing is pulled any further in this stage, so that 'increment' never ends: give "
              "'time-step' instead");
+    }
     return w.next_moment(*to);
   }
 
