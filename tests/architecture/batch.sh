@@ -242,7 +242,7 @@ for child in $children; do
   kill -CONT "$child"
 done
 for _ in $(seq 600); do
-  [ "$(pgrep -c -P $again || true)" = 2 ] && break
+  grep -qs "resumed at step" "$work/orphans/E=50-GPa/run.log" && grep -qs "resumed at step" "$work/orphans/E=100-GPa/run.log" && break
   sleep 0.1
 done
 # One that has ended and that nobody has asked about yet (Z) does not go on.
