@@ -29,8 +29,10 @@ class Multifrontal final : public LinearSolver {
     mumps_.comm_fortran = use_whole_communicator;
     call(-1);
     for (int k = 0; k < 4; ++k) mumps_.icntl[k] = k < 3 ? -1 : 0;  // it says nothing by itself
-    control(14) = 40;                                              // percent of room beyond the estimate
-    control(24) = 1;                                               // finds pivots that are as good as nothing
+    control(6) = 0;  // no permutation by numbers, which are not known when it orders
+    control(12) = 1;
+    control(14) = 40;  // percent of room beyond the estimate
+    control(24) = 1;   // finds pivots that are as good as nothing
   }
   ~Multifrontal() override { call(-2); }
   Multifrontal(const Multifrontal&) = delete;
@@ -50,6 +52,7 @@ class Multifrontal final : public LinearSolver {
     mumps_.nnz = static_cast<MUMPS_INT8>(rows_.size());
     mumps_.irn = rows_.data();
     mumps_.jcn = columns_.data();
+    mumps_.a = nullptr;  // of the numbers of a matrix before nothing may be read
     call(1);
     require("analyse");
   }

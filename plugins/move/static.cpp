@@ -250,8 +250,9 @@ class Static final : public Mover {
     const std::size_t breaks = w.domain().breaks().breaks.size();
     broke_ = breaks != seen_breaks_;
     seen_breaks_ = breaks;
-    if (broke_) hold(w);
-    if (model_->has_other_pairs()) analyse();
+    const bool meets = model_->has_other_pairs();
+    if (meets) analyse();
+    if (broke_ || meets) hold(w);  // what was loose may touch something now
   }
 
   // What broke pulls at the supports no more. Contacts that have opened by themselves leave nothing out of balance; what a

@@ -74,6 +74,20 @@ TEST_P(EachSolver, factors_again_with_the_order_that_it_found) {
   }
 }
 
+TEST_P(EachSolver, takes_another_pattern_and_forgets_the_numbers_before) {
+  const auto solver = linear_solver(GetParam());
+  for (const int size : {30, 9, 12}) {
+    const MatrixXd k = chain(size, 1);
+    const SymmetricMatrix matrix = sparse(k);
+    solver->analyse(matrix);
+    EXPECT_TRUE(solver->factor(matrix).whole);
+    Vector x = random_vector(size, 6);
+    const Vector b = x;
+    solver->solve(x);
+    EXPECT_LT((k * x - b).norm(), 1e-8 * b.norm());
+  }
+}
+
 TEST_P(EachSolver, counts_what_is_negative_and_solves_with_it_if_it_says_so) {
   const auto solver = linear_solver(GetParam());
   if (!solver->takes_indefinite()) return;  // definite matrices alone, and it says so
