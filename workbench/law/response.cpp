@@ -1,0 +1,87 @@
+#include "workbench/law/response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beadwork::law {
+
+namespace {
+
+constexpr Real nothing = 1e-9;  // of the peak: what is left of a bond that has failed
+
+std::vector<Real> copy(std::span<const Real> values, std::size_t rows) {
+  std::vector<Real> out(values.begin(), values.end());
+  out.resize(rows, 0);
+  return out;
+}
+
+// The load of the second element goes with its own motion, of which s is a multiple.
+Real motion_of_second(const Mode& mode) {
+  for (std::size_t k = 6; k < mode.moves.size(); ++k)
+    if (mode.moves[k] != 0) return mode.moves[k];
+  return 1;
+}
+
+std::size_t peak_row(const Response& response) {
+  std::size_t peak = 0;
+  for (std::size_t row = 0; row < response.rows(); ++row)
+    if (std::abs(response.load[row]) > std::abs(response.load[peak])) peak = row;
+  return peak;
+}
+
+// Where the response is still straight, and no longer feels the round-off of places.
+Real first_stiffness(const Response& response, Real motion) {
+  for (std::size_t row = 0; row < response.rows(); ++row)
+    if (std::abs(response.motion[row]) >= motion && motion > 0) return response.load[row] / response.motion[row];
+  return 0;
+}
+
+}  // namespace
+
+Response response_of(const Outcome& outcome, const Mode& mode) {
+  const bool turns = mode.is_turn();
+  const auto motion = outcome.column("force", turns ? "turn" : "displacement");
+  const auto load = outcome.column("force", turns ? "torque" : "force");
+  const std::size_t rows = std::min(motion.size(), load.size());
+  Response response{copy(motion, rows), copy(load, rows), copy(outcome.column("energy", "work"), rows),
+                    copy(outcome.column("energy", "stored"), rows), copy(outcome.column("energy", "dissipated"), rows)};
+  for (Real& each : response.motion) each /= motion_of_second(mode);
+  return response;
+}
+
+Found found_in(const Response& search, Real scale) {
+  Found found;
+  if (search.rows() == 0) return found;
+  const std::size_t peak = peak_row(search), last = search.rows() - 1;
+  found.peak = search.load[peak];
+  found.peak_at = search.motion[peak];
+  if (found.peak == 0) return found;
+  found.stiffness = first_stiffness(search, std::min(1e-3 * std::abs(found.peak_at), 1e-5 * scale));
+  if (std::abs(found.stiffness) < 1e-8 * std::abs(found.peak / found.peak_at)) found.stiffness = 0;  // of second order
+  found.softens = std::abs(search.load[last]) < 0.999 * std::abs(found.peak);
+  std::size_t row = last + 1;
+  while (row > peak && std::abs(search.load[row - 1]) <= nothing * std::abs(found.peak)) --row;
+  if (row <= last) found.failed_at = search.motion[row];
+  return found;
+}
+
+std::vector<Real> amplitudes(const Found& found, const Mode& mode, const Pair& pair) {
+  const Real peak = found.peak_at;
+  if (!found.softens) {
+    const Real whole = mode.sign * mode.show * pair.scale(mode);
+    return {0.25 * whole, 0.5 * whole, 0.75 * whole, whole};
+  }
+  const Real end = found.failed_at ? *found.failed_at : mode.sign * mode.look * pair.scale(mode);
+  const Real beyond = found.failed_at ? 1.1 * end : end;
+  if (peak / end > 0.9) return {0.3 * peak, 0.6 * peak, 0.9 * peak, beyond};  // it breaks at its peak
+  const auto between = [&](Real share) { return peak + share * (end - peak); };
+  return {0.5 * peak, peak, between(0.25), between(0.5), between(0.75), beyond};
+}
+
+Figures figures_of(const Response& cycles) {
+  if (cycles.rows() == 0) return {};
+  const std::size_t peak = peak_row(cycles);
+  return {cycles.load[peak], cycles.motion[peak], cycles.dissipated.back()};
+}
+
+}  // namespace beadwork::law
