@@ -81,7 +81,7 @@ Course search_course(const Mode& mode, const Pair& pair) {
 
 // Between two ends the rate rises and falls in straight lines over 2 s.
 Course cycles_course(const std::vector<Real>& amplitudes) {
-  constexpr Real steps = 100;  // from one end to the other
+  constexpr Real steps = 70;  // from one end to the other: a picture draws every row of six cycles
   Course course{.table = {{0, 0}}, .step = 2 / steps};
   Real time = 0;
   for (const Real amplitude : amplitudes)

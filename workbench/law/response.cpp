@@ -36,6 +36,18 @@ Real first_stiffness(const Response& response, Real motion) {
   return 0;
 }
 
+// The first row that bears nothing is known, and failure lies between it and the one before: at that one where it broke
+// there, and where it softens to nothing, on the straight line of the last two.
+Real failure_before(const Response& response, std::size_t row, std::size_t peak) {
+  const auto& s = response.motion;
+  const auto& f = response.load;
+  if (row < peak + 2) return s[peak];
+  const Real fallen = f[row - 2] - f[row - 1];
+  const Real left = fallen != 0 ? f[row - 1] / fallen * (s[row - 1] - s[row - 2]) : 0;
+  const Real at = s[row - 1] + left;
+  return std::abs(at) >= std::abs(s[row - 1]) && std::abs(at) <= std::abs(s[row]) ? at : s[row];
+}
+
 }  // namespace
 
 Response response_of(const Outcome& outcome, const Mode& mode) {
@@ -57,11 +69,11 @@ Found found_in(const Response& search, Real scale) {
   found.peak_at = search.motion[peak];
   if (found.peak == 0) return found;
   found.stiffness = first_stiffness(search, std::min(1e-3 * std::abs(found.peak_at), 1e-5 * scale));
-  if (std::abs(found.stiffness) < 1e-8 * std::abs(found.peak / found.peak_at)) found.stiffness = 0;  // of second order
+  if (std::abs(found.stiffness) < 1e-6 * std::abs(found.peak / found.peak_at)) found.stiffness = 0;  // of second order
   found.softens = std::abs(search.load[last]) < 0.999 * std::abs(found.peak);
   std::size_t row = last + 1;
   while (row > peak && std::abs(search.load[row - 1]) <= nothing * std::abs(found.peak)) --row;
-  if (row <= last) found.failed_at = search.motion[row];
+  if (row <= last) found.failed_at = failure_before(search, row, peak);
   return found;
 }
 
@@ -81,7 +93,10 @@ std::vector<Real> amplitudes(const Found& found, const Mode& mode, const Pair& p
 Figures figures_of(const Response& cycles) {
   if (cycles.rows() == 0) return {};
   const std::size_t peak = peak_row(cycles);
-  return {cycles.load[peak], cycles.motion[peak], cycles.dissipated.back()};
+  Real most = 0;
+  for (const Real work : cycles.work) most = std::max(most, std::abs(work));
+  const Real dissipated = cycles.dissipated.back();
+  return {cycles.load[peak], cycles.motion[peak], std::abs(dissipated) > 1e-12 * most ? dissipated : 0};
 }
 
 }  // namespace beadwork::law

@@ -28,9 +28,13 @@ CurvePlan plan_of(const Trial& trial) {
           .y = {mode.load}};
 }
 
-// The larger one: cycles and search sample a peak each in its own way.
-Real peak_of(const Trial& trial) {
-  return std::abs(trial.figures.peak) > std::abs(trial.found.peak) ? trial.figures.peak : trial.found.peak;
+// Of the largest load: cycles and search sample a peak each in its own way. The search of what does not fail goes beyond
+// what is shown.
+Figures largest(const Trial& trial) {
+  Figures figures = trial.figures;
+  if (trial.found.softens && std::abs(trial.found.peak) > std::abs(figures.peak))
+    figures.peak = trial.found.peak, figures.peak_at = trial.found.peak_at;
+  return figures;
 }
 
 std::vector<const Trial*> of_family(const Family& family, const std::vector<Trial>& trials) {
@@ -52,8 +56,8 @@ Json result_of(const Trial& trial) {
   }
   result["stiffness"] = trial.found.stiffness;
   if (!trial.family->is_contact) result["stated_stiffness"] = trial.stated;
-  result["peak"] = peak_of(trial);
-  result["peak_at"] = trial.found.peak_at;
+  result["peak"] = largest(trial).peak;
+  result["peak_at"] = largest(trial).peak_at;
   result["failed_at"] = trial.found.failed_at ? Json(*trial.found.failed_at) : Json(nullptr);
   const auto& reached = trial.cycles.motion;
   const auto farthest =
@@ -91,13 +95,12 @@ std::string row_of(const Trial& trial) {
   if (trial.bears_nothing || !trial.failure.empty()) return fmt::format("  {:<12} -\n", trial.mode.name);
   const std::string stiffness = trial.mode.is_turn() ? "N.m" : "N/m";  // a radian is a plain number
   const Found& found = trial.found;
-  const bool has_peak = found.softens;
+  const Figures most = largest(trial);
   return fmt::format(
       "  {:<12} {:>15} {:>15} {:>13} {:>12} {:>12} {:>12}\n", trial.mode.name, quantity(found.stiffness, stiffness),
-      trial.family->is_contact ? "-" : quantity(trial.stated, stiffness),
-      has_peak ? quantity(peak_of(trial), trial.mode.load_unit) : "-",
-      has_peak ? quantity(found.peak_at, trial.mode.unit) : "-",
-      found.failed_at ? quantity(*found.failed_at, trial.mode.unit) : "-", quantity(trial.figures.dissipated, "J"));
+      trial.family->is_contact ? "-" : quantity(trial.stated, stiffness), quantity(most.peak, trial.mode.load_unit),
+      quantity(most.peak_at, trial.mode.unit), found.failed_at ? quantity(*found.failed_at, trial.mode.unit) : "-",
+      quantity(trial.figures.dissipated, "J"));
 }
 
 }  // namespace

@@ -36,8 +36,10 @@ void search(std::vector<Trial>& trials, const TrialDesk& desk) {
     trial.stated = stated_stiffness({deck.string(), {}, desk.libraries}, *trial.family, trial.mode);
   }
   const std::vector<Outcome> outcomes = desk.runner.run(errands);
-  for (std::size_t k = 0; k < trials.size(); ++k)
+  for (std::size_t k = 0; k < trials.size(); ++k) {
     trials[k].found = found_in(taken(trials[k], outcomes[k]), trials[k].pair.scale(trials[k].mode));
+    if (trials[k].family->is_contact) trials[k].found.softens = false;  // it slips, or leaves: it does not fail
+  }
 }
 
 // A rounding of nothing is no response: against a force, what turns is seen at the distance of the centres.
