@@ -59,14 +59,16 @@ PlainNode loads(const Family& family, const Mode& mode, const Course& course) {
   return section;
 }
 
+// A curve for each end that is driven.
 PlainNode watchers(const Mode& mode) {
-  std::string axis;
-  for (std::size_t k = 0; k < axes.size(); ++k)
-    if (mode.moves[6 + k] != 0) axis = axes[k];
-  return {"watch",
-          {},
-          {{"force-curve", {{"of", "second"}, {"axis", axis}, {"every", "1"}}, {}},
-           {"energy-ledger", {{"every", "1"}}, {}}}};
+  PlainNode section{"watch", {}, {}};
+  for (std::size_t end = 0; end < ends.size(); ++end)
+    for (std::size_t axis = 0; axis < axes.size(); ++axis)
+      if (mode.moves[6 * end + axis] != 0)
+        section.children.push_back(
+            {"force-curve", {{"of", ends[end]}, {"axis", axes[axis]}, {"name", ends[end]}, {"every", "1"}}, {}});
+  section.children.push_back({"energy-ledger", {{"every", "1"}}, {}});
+  return section;
 }
 
 }  // namespace

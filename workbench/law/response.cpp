@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace beadwork::law {
 
@@ -15,11 +16,11 @@ std::vector<Real> copy(std::span<const Real> values, std::size_t rows) {
   return out;
 }
 
-// The load of the second element goes with its own motion, of which s is a multiple.
-Real motion_of_second(const Mode& mode) {
-  for (std::size_t k = 6; k < mode.moves.size(); ++k)
-    if (mode.moves[k] != 0) return mode.moves[k];
-  return 1;
+// How far an end goes for a unit of s.
+Real factor_of(const Mode& mode, std::size_t end) {
+  Real factor = 0;
+  for (std::size_t axis = 0; axis < 6; ++axis) factor += mode.moves[6 * end + axis];  // one of them moves, or none
+  return factor;
 }
 
 std::size_t peak_row(const Response& response) {
@@ -50,14 +51,20 @@ Real failure_before(const Response& response, std::size_t row, std::size_t peak)
 
 }  // namespace
 
+// What does work on s is the load of each end, as often as that end goes with s.
 Response response_of(const Outcome& outcome, const Mode& mode) {
-  const bool turns = mode.is_turn();
-  const auto motion = outcome.column("force", turns ? "turn" : "displacement");
-  const auto load = outcome.column("force", turns ? "torque" : "force");
-  const std::size_t rows = std::min(motion.size(), load.size());
-  Response response{copy(motion, rows), copy(load, rows), copy(outcome.column("energy", "work"), rows),
-                    copy(outcome.column("energy", "stored"), rows), copy(outcome.column("energy", "dissipated"), rows)};
-  for (Real& each : response.motion) each /= motion_of_second(mode);
+  const char* motion = mode.is_turn() ? "turn" : "displacement";
+  const char* load = mode.is_turn() ? "torque" : "force";
+  const std::size_t rows = outcome.column("second", motion).size();
+  Response response{copy(outcome.column("second", motion), rows), std::vector<Real>(rows, 0),
+                    copy(outcome.column("energy", "work"), rows), copy(outcome.column("energy", "stored"), rows),
+                    copy(outcome.column("energy", "dissipated"), rows)};
+  for (Real& each : response.motion) each /= factor_of(mode, 1);
+  for (const auto& [end, curve] : {std::pair{0, "first"}, std::pair{1, "second"}}) {
+    const std::vector<Real> loads = copy(outcome.column(curve, load), rows);
+    for (std::size_t row = 0; row < rows; ++row)
+      response.load[row] += factor_of(mode, static_cast<std::size_t>(end)) * loads[row];
+  }
   return response;
 }
 

@@ -115,6 +115,10 @@ def large():
     assert wire["radii"] == [2e-3, 4e-3] and wire["modes"]["tension"]["failed_at"] is None, wire
     near(wire["modes"]["tension"]["stiffness"], 2e9 * math.pi * 3e-3**2 / 6e-3, 1e-6)
     near(wire["modes"]["tension"]["reached"], 0.01 * 6e-3, 1e-6)
+    glue = families["glue"]["modes"]
+    for name in ("tension", "compression", "shear", "bending"):  # on unequal spheres half a turn each makes faces slide
+        near(glue[name]["stiffness"], glue[name]["stated_stiffness"], 1e-4)
+    near(glue["bending"]["stated_stiffness"], glue["shear"]["stated_stiffness"] * 1e-3**2, 1e-6)
 
 
 def filled():
