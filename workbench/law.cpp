@@ -157,11 +157,12 @@ void add_law(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_option("--radius", arguments->radius,
                    "Of the two elements, such as '5 um', or of each, '5 um, 20 um'; where absent the mean of those "
                    "that the family joins");
+  constexpr double least = 1e-6, half_a_turn = 3.1;
   verb->add_option("--strain", arguments->reach.strain,
                    "How far the elements are moved at most, over the distance of their centres")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(least, 100.0));
   verb->add_option("--angle", arguments->reach.angle, "How far they are turned at most, in rad")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(least, half_a_turn));
   verb->add_flag("--overwrite", arguments->overwrite, "Replaces the laws that stand in the folder");
   verb->add_option("--jobs", arguments->shares.jobs, "Runs at once; where absent as many as there are processors for")
       ->check(CLI::Range(1, 1024));

@@ -1,5 +1,7 @@
 #include "workbench/law/mode.hpp"
 
+#include <algorithm>
+
 namespace beadwork::law {
 
 namespace {
@@ -46,8 +48,11 @@ std::vector<Mode> modes_of(const Family& family, const Reach& reach) {
       modes.push_back(within(twisted(), 1, 0.2));
     }
   }
-  for (Mode& mode : modes)
-    if (const auto& given = mode.is_turn() ? reach.angle : reach.strain) mode.look = mode.show = *given;
+  constexpr Real nearest = 0.1;  // of their distance: beyond it two centres would meet
+  for (Mode& mode : modes) {
+    const auto& given = mode.is_turn() ? reach.angle : reach.strain;
+    if (given) mode.look = mode.show = mode.sign < 0 ? std::min(*given, 1 - nearest) : *given;
+  }
   return modes;
 }
 

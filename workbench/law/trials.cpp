@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 
 namespace beadwork::law {
@@ -33,7 +34,10 @@ void search(std::vector<Trial>& trials, const TrialDesk& desk) {
                    pair_deck(desk.scene, *trial.family, trial.mode, trial.pair, search_course(trial.mode, trial.pair),
                              name, told(trial) + " Ever further, for where it bears most and where it fails."));
     errands.push_back({name, deck});
-    trial.stated = stated_stiffness({deck.string(), {}, desk.libraries}, *trial.family, trial.mode);
+    try {
+      trial.stated = stated_stiffness({deck.string(), {}, desk.libraries}, *trial.family, trial.mode);
+    } catch (const DeckFailure&) {  // of a law that does not stand alone; its run says why
+    }
   }
   const std::vector<Outcome> outcomes = desk.runner.run(errands);
   for (std::size_t k = 0; k < trials.size(); ++k) {
