@@ -94,6 +94,15 @@ SceneRunnerOptions runner_options(const LawArguments& arguments, Progress& progr
   return options;
 }
 
+// Of a filling for its radii alone: what it says of the packing is nobody's concern.
+RunOptions filling_options(const SceneRunnerOptions& options) {
+  RunOptions filling;
+  filling.commands = {options.command, options.command};
+  filling.interrupt = options.interrupt;
+  filling.progress = options.progress;
+  return filling;
+}
+
 int show_laws(const LawArguments& arguments) {
   heed_signals();
   const Loaded loaded = load_run(arguments.deck);
@@ -119,8 +128,7 @@ int show_laws(const LawArguments& arguments) {
   };
   std::vector<law::Trial> trials;
   try {
-    if (pairs.empty())
-      pairs = law::pairs_of(loaded, families, log, [&](const Headway& headway) { progress.show(headway); });
+    if (pairs.empty()) pairs = law::pairs_of(loaded, families, filling_options(options), log);
     trials = law::trials_of(families, pairs, arguments.reach);
     law::run(trials, {*loaded.scene, runner, options.libraries, write});
   } catch (const Fault& fault) {

@@ -8,7 +8,6 @@
 #include "core/base/text.hpp"
 #include "core/loop/filling.hpp"
 #include "core/loop/stage_start.hpp"
-#include "workbench/signals.hpp"
 
 namespace beadwork::law {
 
@@ -33,7 +32,8 @@ Real mean_radius(const Domain& domain, const std::string& set) {
   Real sum = 0, count = 0;
   for (const Index row : domain.set(set))
     if (!domain.walls().is_wall(row)) sum += radius[row], ++count;
-  return count > 0 ? sum / count : 0;
+  if (count == 0) throw DeckFailure(fmt::format("error: set '{}' has no elements with a radius: give --radius", set));
+  return sum / count;
 }
 
 }  // namespace
@@ -56,17 +56,14 @@ Real stated_stiffness(const DeckRequest& deck, const Family& family, const Mode&
   return moves.dot(law->tangent(state.domain(), *table, 0, Slope::secant) * moves);
 }
 
-std::vector<Pair> pairs_of(const Loaded& loaded, const std::vector<Family>& families, const Log& log,
-                           const TellHeadway& progress) {
+std::vector<Pair> pairs_of(const Loaded& loaded, const std::vector<Family>& families, const RunOptions& filling,
+                           const Log& log) {
   if (const auto radius = one_radius(*loaded.scene)) return std::vector<Pair>(families.size(), Pair{*radius, *radius});
   log.say("filling the scene for the radii of its elements (--radius R spares that)");
   RunState state(*loaded.scene);
   loaded.scene->bind();
-  RunOptions options;
-  options.interrupt = &interrupted;
-  options.progress = progress;
   std::vector<std::string> reports;
-  fill(state, options, reports);
+  fill(state, filling, reports);
   std::vector<Pair> pairs;
   for (const Family& family : families)
     pairs.push_back({mean_radius(state.domain(), family.between[0]), mean_radius(state.domain(), family.between[1])});

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/headway.hpp"
 #include "core/base/log.hpp"
 #include "core/loop/load.hpp"
+#include "core/loop/run_options.hpp"
 #include "workbench/law/pair.hpp"
 
 namespace beadwork::law {
@@ -16,8 +16,8 @@ namespace beadwork::law {
 Real stated_stiffness(const DeckRequest& deck, const Family& family, const Mode& mode);
 
 /// Mean radii over the two sets of each family: as the fillings of the deck have them, where all give the one radius, or of
-/// the elements that they make. 0 where a set has none.
-std::vector<Pair> pairs_of(const Loaded& loaded, const std::vector<Family>& families, const Log& log,
-                           const TellHeadway& progress);
+/// the elements that they make, which is said to the log. DeckFailure where a set has none.
+std::vector<Pair> pairs_of(const Loaded& loaded, const std::vector<Family>& families, const RunOptions& filling,
+                           const Log& log);
 
 }  // namespace beadwork::law
