@@ -13,15 +13,17 @@ namespace report {
 namespace {
 
 std::string study_page(const std::filesystem::path& folder) {
-  const Run study = open_curves(folder);
+  Run study = open_curves(folder);
   const Json result = study.summary.contains("result") ? study.summary["result"] : Json::object();
   const std::string title = escaped(study.scene.empty() ? name_of_folder(folder) : study.scene);
   const std::string kind = escaped(text_of(study.summary, "study", "study"));
   std::string notes;
   if (study.status != "done")
     notes = section("How it ended", "<p>" + escaped(text_of(study.summary, "exit_reason")) + "</p>");
-  return page_with(title + " – Beadwork", "<h1>" + title + "</h1><p>" + kind + " " + badge(study.status) + "</p>",
-                   notes + section("Result", result.empty() ? "" : facts_table(result)) + curves(study, {}));
+  return page_with(
+      title + " – Beadwork", "<h1>" + title + "</h1><p>" + kind + " " + badge(study.status) + "</p>",
+      notes + (kind == "law" ? laws(study, result)
+                             : section("Result", result.empty() ? "" : facts_table(result)) + curves(study, {})));
 }
 
 }  // namespace
