@@ -18,6 +18,8 @@ class Contacts {
   /// Before a step: pairs are found anew where they may be too old for it. Throws PhysicsFailure if an element moves
   /// by more than half a skin in a step.
   void follow();
+  /// How far an element may move in a step for that [m]; infinite in a stage without contacts.
+  Real reach() const { return narrowest_ / longer; }
 
  private:
   void search();
@@ -32,6 +34,7 @@ class Contacts {
   void meet_and_part(ContactLaw& law, BondTable& table, const std::vector<std::pair<Index, Index>>& bonded);
   Real skin(const ContactLaw& law) const;
 
+  static constexpr Real longer = 1.5;  ///< the step to come is as long as the last one, or half again
   RunState& state_;
   const Log& log_;
   Real narrowest_ = 0;  ///< half of the narrowest skin of the stage [m]

@@ -59,6 +59,7 @@ class Run final : private Workings {
   void evaluate(bool settle) override;
   Real utilisation() override;
   Real next_moment(Real until) const override;
+  Real reach() const override { return contacts_.reach(); }
 
   RunOptions options_;
   RunState state_;

@@ -27,6 +27,8 @@ class Workings {
   virtual Real utilisation() = 0;
   /// The first moment up to this one, after the present, for which the stage or one of its watchers waits [s].
   virtual Real next_moment(Real until) const = 0;
+  /// How far an element may move in a step without missing a contact [m]; infinite where nothing may touch.
+  virtual Real reach() const = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<PairLaw*, BondTable*>> laws() const = 0;
   virtual Log& log() = 0;

@@ -35,6 +35,7 @@ const char* in_words(Reason reason) {
     case Reason::too_many_iterations: return "too many iterations";
     case Reason::grows: return "the residual grows";
     case Reason::far_away: return "the next equilibrium lies far away (snap-back: 'opening' follows it)";
+    case Reason::outruns_skin: return "an element moves by more than the skin of contacts allows";
     case Reason::no_number: return "forces are no numbers";
     case Reason::singular: return "the stiffness is singular";
     case Reason::linear_solver: return "the linear solver did not come to its end";
@@ -59,9 +60,9 @@ class Newton::Judge {
     if (first_ < 0) first_ = du.norm();
     unbalanced_ = model_.supports().unbalanced(f);
     left_ = unbalanced_.norm();
-    const Vector taken = f - unbalanced_;
-    does_ = std::max({loads_, (taken - taken_before_).norm(), 1e-3 * taken.norm()});
-    const Real energy = std::abs(at_start_.dot(moved_)) + std::abs(taken.dot(moved_));
+    taken_ = f - unbalanced_;
+    does_ = std::max({loads_, (taken_ - taken_before_).norm(), 1e-3 * taken_.norm()});
+    const Real energy = std::abs(at_start_.dot(moved_)) + std::abs(taken_.dot(moved_));
     const bool still = du.norm() <= tolerance_ * moved_.norm();
     const bool spent = std::abs(unbalanced_.dot(du)) <= tolerance_ * energy;
     return left_ <= allowed() && ((still && spent) || left_ <= 1e-3 * tolerance_ * does_ + floor());
@@ -76,12 +77,18 @@ class Newton::Judge {
   Real allowed() const { return tolerance_ * does_ + floor(); }
   /// An equilibrium so many times as far away as the first step has it is another one: something has snapped.
   bool is_far() const { return moved_.norm() > 4 * first_; }
+  bool is_farther_than_thought() const { return moved_.norm() > 1.5 * first_; }
+  /// Half of what the increment's own forces do on its way: of loads, and of supports [J].
+  Real energy() const {
+    const Vector loads = at_start_ - taken_before_;
+    return 0.5 * (std::abs(loads.dot(moved_)) + std::abs((taken_ - taken_before_).dot(moved_)));
+  }
 
  private:
   const StaticModel& model_;
   Vector at_start_;
   Real tolerance_;
-  Vector unbalanced_, taken_before_, moved_;
+  Vector unbalanced_, taken_, taken_before_, moved_;
   Real loads_ = 0, left_ = 0, does_ = 0, first_ = -1;
 };
 
@@ -178,7 +185,9 @@ NewtonResult Newton::go(Real time, Manner manner) {
 
     const bool found = judge.finds(f, du);
     judge.tell(result);
-    if (found && goes_on && judge.is_far()) return result.reason = Reason::far_away, result;
+    if (found && goes_on &&
+        (judge.is_far() || (judge.is_farther_than_thought() && model_.work_on_the_way() > 3 * judge.energy())))
+      return result.reason = Reason::far_away, result;
     if (found) return result;
 
     const Real left = judge.left();

@@ -9,7 +9,7 @@
 namespace beadwork {
 
 /// Why an iteration ended.
-enum class Reason { converged, too_many_iterations, grows, far_away, no_number, singular, linear_solver };
+enum class Reason { converged, too_many_iterations, grows, far_away, outruns_skin, no_number, singular, linear_solver };
 /// In words, for the log.
 const char* in_words(Reason reason);
 

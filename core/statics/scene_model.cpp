@@ -45,6 +45,13 @@ void SceneModel::note_accepted() {
   turned_.assign(static_cast<std::size_t>(count_), Vec3::Zero());
 }
 
+void SceneModel::stand_still() {
+  for (Index i = 0; i < count_; ++i) {
+    rows_.velocity.set(i, Vec3::Zero());
+    if (rows_.spin) rows_.spin.set(i, Vec3::Zero());
+  }
+}
+
 void SceneModel::begin_trial(Real time) { w_.moment().time = time; }
 
 void SceneModel::give_up() {
@@ -102,10 +109,18 @@ Vector SceneModel::moved() const {
   return all;
 }
 
+Real SceneModel::farthest() const {
+  Real most = 0;
+  for (Index i = 0; i < count_; ++i)
+    most = std::max(most, (rows_.place[i] - places_[static_cast<std::size_t>(i)]).norm());
+  return most;
+}
+
 // Simpson's rule along the chord, places in straight lines and turns about fixed axes: a path that stretches nothing more
 // than both ends do, where the way of an iteration may lead anywhere.
 Real SceneModel::work_on_the_way() {
   constexpr int pieces = 8;
+  const Real now = w_.moment().time;
   const Vector whole = moved();
   std::vector<Vec3> places(places_.size());
   std::vector<Quat> orientations(orientations_.size());
@@ -117,8 +132,9 @@ Real SceneModel::work_on_the_way() {
   Real work = 0;
   for (int k = 0; k <= pieces; ++k) {
     give_up();
+    w_.moment().time = now;
     move(whole * (static_cast<Real>(k) / pieces));
-    work += (k == 0 || k == pieces ? 1 : k % 2 == 1 ? 4 : 2) * forces().dot(whole) / (3 * pieces);
+    work += (k == 0 || k == pieces ? 1 : k % 2 == 1 ? 4 : 2) * supports_.unbalanced(forces()).dot(whole) / (3 * pieces);
   }
   for (Index i = 0; i < count_; ++i) {
     rows_.place.set(i, places[static_cast<std::size_t>(i)]);

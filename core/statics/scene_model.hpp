@@ -33,6 +33,7 @@ class SceneModel final : public StaticModel {
   Vector force_rates() override;
   Lacking support_rates() const override;
   Vector moved() const override;
+  Real work_on_the_way() override;
   Real time() const override { return w_.moment().time; }
   Real noise() const override { return noise_; }
   void give_up() override;
@@ -44,6 +45,8 @@ class SceneModel final : public StaticModel {
   Noise noise_here();
   /// Of forces, for as long as the stage lasts: a run that is resumed goes by the same.
   void take_noise(Real force) { noise_ = force; }
+  /// Nothing moves yet.
+  void stand_still();
   /// The trial state is accepted: laws note what they keep, what is prescribed tells its forces and its work.
   void accept();
   /// Forces at the state as it stands are those of the supports: where a run or a stage begins.
@@ -52,11 +55,11 @@ class SceneModel final : public StaticModel {
   std::vector<FreeBody> support(bool pin);
   /// The same supports, after a restart: free bodies are held where they were.
   void support_as_before();
-  /// Work that the forces do from the last accepted state to the trial state, at the present loads [J].
-  Real work_on_the_way();
   /// By how much the bonds of a family that soften, or all, open or slide as they did in the last step: the mean, each with
   /// the weight of what it moved then, as a product with what elements move. Nothing if there is no such bond.
   std::optional<Vector> opening(const std::string& family, bool softening_only) const;
+  /// The farthest that an element has gone since the last accepted state [m].
+  Real farthest() const;
   /// Elements that nothing binds, which are held where they are.
   Index loose() const { return loose_; }
   /// The pairs that bonds and contacts make have changed since the stiffness got its pattern.

@@ -25,6 +25,10 @@ class StaticModel {
   virtual Lacking support_rates() const = 0;
   /// What the trial state has moved since the last accepted one.
   virtual Vector moved() const = 0;
+  /// What forces that nothing balances do along the straight way from the last accepted state to the trial state, at the
+  /// loads of the trial; it stays as it is. In a small increment they fall to nothing on the way; where something snaps they
+  /// do more than the increment itself, and that would become motion [J].
+  virtual Real work_on_the_way() = 0;
   virtual Real time() const = 0;
   /// Forces smaller than this are round-off [N].
   virtual Real noise() const = 0;

@@ -420,6 +420,46 @@ def dcb_static():
     below("ledger's residual over work", residual_over_work(result.energy), 2e-3)
 
 
+# A crack between two slender arms that are pulled apart, against beam theory whose crack is longer by 2/3 h.
+def alfano_crisfield():
+    h, b, a0, E, G = 1.5e-3, 20e-3, 30e-3, 135.3e9, 280
+    EI, longer = E * b * h**3 / 12, 2 / 3 * h
+    result = run("alfano-crisfield/quick.xml")
+    curve = result.curve("force")
+    u, P = curve["displacement"], curve["force"]
+    top = P.index(max(P))
+    near("slope to 0.2 mm, 3 EI/(a0 + 2/3 h)^3", numpy.interp(0.2e-3, u[:top], P[:top]) / 0.2e-3, 3 * EI / (a0 + longer) ** 3, 0.005)
+    peak = (G * b * EI) ** 0.5 / (a0 + longer)
+    below("peak, which a process zone lowers", P[top] / peak, 1)
+    near("peak", P[top], peak, 0.04)
+    grows = [P[k] * (3 * u[k]) ** 0.5 / ((G * b) ** 0.75 * EI**0.25) - 1 for k in range(top, len(P)) if u[k] > 1.1e-3]
+    below("force while the crack grows beside theory, rms", float(numpy.sqrt(numpy.mean(numpy.square(grows)))), 0.01)
+    longest = (3 * u[-1]) ** 0.5 * (EI / (G * b)) ** 0.25 - a0 - longer
+    near("dissipated, G b times the length of theory", result.energy["dissipated: interface"], G * b * longest, 0.02)
+    none("snap-backs that were not followed", 0 if any(b < a for a, b in zip(u, u[1:])) else 1)
+    below("ledger's residual over work", residual_over_work(result.energy), 3e-4)
+
+
+# A crack in shear runs back by itself, and its equilibria are followed: beam theory gives the start and the turn.
+def enf():
+    L, a0, h, b, E, G = 101.6e-3, 50.8e-3, 2.02e-3, 25.4e-3, 171.42e9, 777
+    result = run("enf/quick.xml")
+    curve = result.curve("force")
+    u, P = [-x for x in curve["displacement"]], [-x for x in curve["force"]]
+    top = P.index(max(P))
+    near("slope to 2 mm, 8 E b h^3/(3 a0^3 + 2 L^3)", numpy.interp(2e-3, u[:top], P[:top]) / 2e-3, 8 * E * b * h**3 / (3 * a0**3 + 2 * L**3), 0.015)
+
+    def force(a):
+        return 4 * b * (G * E * h**3) ** 0.5 / (3 * a)
+
+    near("peak, which a process zone lowers", P[top], force(a0), 0.08)
+    turn = min(range(top, top + (len(P) - top) // 2), key=lambda k: u[k])
+    a = L / 3 ** (1 / 3)
+    near("force at which the way back ends", P[turn], force(a), 0.015)
+    near("displacement at which it ends", u[turn], force(a) * (3 * a**3 + 2 * L**3) / (8 * E * b * h**3), 0.01)
+    below("ledger's residual over work", residual_over_work(result.energy), 3e-4)
+
+
 # The law between rigid blocks: strength times area, and the energy of the mode mix times area.
 def glued_block():
     A, sigma, tau, GI, GII = 50e-6, 10e6, 12e6, 500, 800
@@ -501,6 +541,7 @@ with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
      "three-point-bending": three_point_bending, "brazilian-disc": brazilian_disc, "indentation": indentation, "uniaxial-compression": uniaxial_compression,
      "tension": tension, "heap": heap, "dcb": dcb, "glued-block": glued_block,
      "curved-beam": curved_beam, "roll-up": roll_up, "notched-bar-static": notched_bar_static, "dcb-static": dcb_static,
+     "alfano-crisfield": alfano_crisfield, "enf": enf,
      "calibration": calibration}[CASE]()
 if failed:
     sys.exit(f"{CASE}: out of band: {', '.join(failed)}")

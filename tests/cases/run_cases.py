@@ -36,6 +36,8 @@ HURRY = {
     "notched-bar/static": (40, ["strength=30 MPa", "count=600", "increment=2 um"]),
     "curved-beam": (6, []),
     "roll-up": (16, []),
+    "alfano-crisfield": (150, ["increment=20 um"]),
+    "enf": (150, []),
     "notched-bar/rdef": (600, ["v=40 m/s", "strength=2 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed

@@ -158,6 +158,7 @@ class Bench final : public Workings {
   void evaluate(bool) override {}
   Real utilisation() override { return 0; }
   Real next_moment(Real until) const override { return until; }
+  Real reach() const override { return std::numeric_limits<Real>::infinity(); }
   std::span<const std::pair<PairLaw*, BondTable*>> laws() const override { return laws_; }
   Log& log() override { return log_; }
   BondTable& table() { return *laws_.front().second; }
