@@ -340,7 +340,7 @@ def tension():
 # A small sample of the epoxy, calibrated; then its own decks, run by hand with other values.
 def calibration():
     folder = pathlib.Path(scratch) / "epoxy"
-    subprocess.run([BEADWORK, "calibrate", str(SOURCE / "xml-cases/calibration/small.xml"), "--out", str(folder)],
+    subprocess.run([BEADWORK, "calibrate", str(SOURCE / "xml-cases/calibration/quick.xml"), "--out", str(folder)],
                    check=True, stdout=subprocess.DEVNULL)
     found = json.loads((folder / "summary.json").read_text())["result"]
     near("Poisson's ratio of the samples, that which was wanted", found["poisson"]["mean"], 0.35, 0.003)

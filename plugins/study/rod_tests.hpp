@@ -1,0 +1,106 @@
+#pragma once
+// Waves along rods of the bonds that were found: a rod is packed as the samples are, stretched by statics, and struck.
+
+#include "core/plugin/study.hpp"
+#include "plugins/study/calibration_texts.hpp"
+#include "plugins/study/pulls.hpp"
+#include "plugins/study/test_decks.hpp"
+
+namespace beadwork::calibration {
+
+class RodTests {
+ public:
+  RodTests(const Plan& plan, const StudyDesk& desk, const Found& found)
+      : plan_(plan),
+        rod_(plan, plan.rod_elements, plan.slenderness),
+        pulls_(plan, desk.folder, "static", rod_),
+        desk_(desk),
+        found_(found) {}
+
+  void add_to(std::vector<Tested>& tested) {
+    desk_.write("wave.xml", wave_deck());
+    std::vector<Packed> packings = pack(tested);
+    const std::vector<Outcome> still = run(packings, [&](const Packed& packing) {
+      return pulls_.errand(packing, {found_.ratio, found_.young, first_axis(plan_.decks)});
+    });
+    std::vector<Elastic> elastic;
+    for (const Outcome& one : still) elastic.push_back(pulls_.read(one, first_axis(plan_.decks), found_.young));
+    std::size_t next = 0;
+    const std::vector<Outcome> struck =
+        run(packings, [&](const Packed& packing) { return wave_errand(packing, elastic[next++]); });
+    for (std::size_t k = 0; k < struck.size(); ++k)
+      if (struck[k].is_done()) tested[k].rod = read(struck[k], elastic[k]);
+  }
+
+ private:
+  static constexpr Real strain_ = 1e-6;  // of the rod, about
+  // Of the transit: the front is that long, of the rod's length. It has passed the last slice whole when what the other
+  // end throws back is there, and is so long that a rod is thin to it.
+  static constexpr Real rise_ = 0.4, time_ = 1.25;
+
+  template <class Make>
+  std::vector<Outcome> run(const std::vector<Packed>& packings, const Make& make) {
+    std::vector<Errand> errands;
+    for (const Packed& packing : packings) {
+      errands.push_back(make(packing));
+      errands.back().name = "rod-" + errands.back().name;
+    }
+    std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      if (!outcomes[k].is_done())
+        desk_.log.warn(fmt::format("{} is left out: {}", errands[k].name, outcomes[k].reason));
+    return outcomes;
+  }
+
+  std::vector<Packed> pack(const std::vector<Tested>& tested) {
+    std::vector<Packed> packings;
+    for (const Tested& one : tested) packings.push_back({one.seed, "", 0, 0, 0, 0, 0});
+    const std::vector<Outcome> outcomes = run(packings, [&](const Packed& packing) {
+      Errand errand{fmt::format("packing,seed={}", packing.seed), desk_.folder / "packing.xml", rod_.size()};
+      add(errand.overrides, {{"seed", std::to_string(packing.seed)}});
+      return errand;
+    });
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      packings[k].file = (outcomes[k].folder / "run.h5").lexically_relative(desk_.folder).string();
+    return packings;
+  }
+
+  Errand wave_errand(const Packed& packing, const Elastic& elastic) const {
+    Errand errand{fmt::format("wave,seed={},radius-ratio={}", packing.seed, format_number(found_.ratio)),
+                  desk_.folder / "wave.xml", rod_.of(packing, found_.ratio, found_.young)};
+    const Real transit = rod_.extent() / std::sqrt(elastic.box * found_.young / 640);
+    add(errand.overrides, {{"stretch", length_text(strain_ * rod_.extent())},
+                           {"rise", time_text(rise_ * transit)},
+                           {"time", time_text(time_ * transit)}});
+    return errand;
+  }
+
+  // c^2 is the stiffness E A over the mass of a length: the section that is named counts for the wave as for statics.
+  Rod read(const Outcome& struck, const Elastic& elastic) const {
+    const auto place = [&](const char* gauge) {
+      const auto places = struck.column(fmt::format("{}-place", gauge), "mean");
+      return places.empty() ? unknown : places[0];
+    };
+    const auto passing = [&](const char* gauge) {
+      const std::string shift = fmt::format("{}-shift", gauge);
+      return passing_time(struck.column(shift, "time"), struck.column(shift, "mean"), 0.5 * strain_ * rod_.extent());
+    };
+    Rod rod;
+    rod.speed = (place("three-quarters") - place("quarter")) / (passing("three-quarters") - passing("quarter"));
+    const Real mass_of_length = last(struck.column("mass", "sum")) / (0.5 * rod_.extent());
+    rod.density = mass_of_length / rod_.section(false).area;
+    const Real section = rod_.section(plan_.through_centres).area;
+    const Real by_wave = rod.speed * rod.speed * mass_of_length, still = modulus_of(plan_, elastic) * found_.young;
+    rod.wave = {by_wave / section, by_wave / elastic.carrying};
+    rod.still = {still, still * section / elastic.carrying};
+    return rod;
+  }
+
+  const Plan& plan_;
+  Samples rod_;
+  Pulls pulls_;
+  const StudyDesk& desk_;
+  const Found& found_;
+};
+
+}  // namespace beadwork::calibration

@@ -1,0 +1,94 @@
+#pragma once
+// The decks of the tests that a calibration's sample is put to beside tension: bent, twisted, struck.
+
+#include "plugins/study/sample_decks.hpp"
+
+namespace beadwork::calibration {
+
+/// Slices across a sample, an eighth of its length thick, at a quarter, the half and three quarters of it.
+inline std::string gauges_deck() {
+  std::string regions;
+  for (const auto& [name, place] : {std::pair{"quarter", 4}, {"half", 8}, {"three-quarters", 12}})
+    regions += fmt::format(
+        "    <region set=\"{0}\" where=\"nx*x + ny*y + nz*z > {1}/16*length and nx*x + ny*y + nz*z &lt; "
+        "{2}/16*length\"/>\n",
+        name, place - 1, place + 1);
+  return fmt::format("{}  <fill>\n{}  </fill>\n</scene>\n", deck_head(true), regions);
+}
+
+/// Sensors of a field along `component` in each of these slices: quarter-what, half-what, ...
+inline std::string gauge_sensors(const char* field, const std::string& component, const char* what, int every) {
+  std::string sensors;
+  for (const char* name : {"quarter", "half", "three-quarters"})
+    sensors += fmt::format("    <sensor field=\"{0}\" component=\"{1}\" set=\"{2}\" every=\"{3}\" name=\"{2}-{4}\"/>\n",
+                           field, component, name, every, what);
+  return sensors;
+}
+
+/// The ends are turned against each other about y, an axis across: both stay plane, and their places along y are free.
+inline std::string bending_deck(const SampleDecks& d) {
+  const char* near = d.is_cylinder ? "${a/2} ${a/2} ${R}" : "${R} ${a/2} ${a/2}";
+  const char* far = d.is_cylinder ? "${a/2} ${a/2} ${length - R}" : "${length - R} ${a/2} ${a/2}";
+  return fmt::format(
+      R"({}<scene name="bending">
+  <include file="sample.xml"/>
+  <include file="gauges.xml"/>
+  <parameter name="angle" value="1e-6"/>               <!-- between the ends -->
+  <parameter name="every" value="1"/>
+  <load>
+    <hold set="near" axes="y" grip="mean"/>
+    <turn set="near" axis="y" about="{}" along="free" velocity="${{-angle/2}} rad/s"/>
+    <turn set="far"  axis="y" about="{}" along="free" velocity="${{angle/2}} rad/s"/>
+  </load>
+  <move><static time-step="1 s" until="1 s"/></move>
+  <watch>
+    <force-curve of="far" axis="ry" every="1" name="torque"/>
+{}{}  </watch>
+</scene>
+)",
+      deck_head(false), near, far, gauge_sensors("position", "${axis}", "place", 1),
+      gauge_sensors("displacement", d.is_cylinder ? "x" : "z", "deflection", 1));
+}
+
+/// The ends are turned against each other about the sample's axis, along which they are free to warp.
+inline std::string torsion_deck() {
+  return fmt::format(
+      R"({}<scene name="torsion">
+  <include file="sample.xml"/>
+  <parameter name="angle" value="1e-6"/>               <!-- between the ends -->
+  <parameter name="every" value="1"/>
+  <load>
+    <hold set="near" axes="${{axis}}" grip="mean"/>
+    <turn set="near" axis="${{axis}}" about="${{a/2}} ${{a/2}} ${{a/2}}" along="free" velocity="${{-angle/2}} rad/s"/>
+    <turn set="far"  axis="${{axis}}" about="${{a/2}} ${{a/2}} ${{a/2}}" along="free" velocity="${{angle/2}} rad/s"/>
+  </load>
+  <move><static time-step="1 s" until="1 s"/></move>
+  <watch><force-curve of="far" axis="r${{axis}}" every="1" name="torque"/></watch>
+</scene>
+)",
+      deck_head(false));
+}
+
+/// One end is pushed in by `stretch` within `rise`; the step of the displacement runs past the slices.
+inline std::string wave_deck() {
+  return fmt::format(
+      R"({}<scene name="wave">
+  <include file="sample.xml"/>
+  <include file="gauges.xml"/>
+  <parameter name="stretch" value="1e-6 mm"/>
+  <parameter name="rise"    value="1 us"/>
+  <parameter name="time"    value="2 us"/>
+  <parameter name="every"   value="2"/>
+  <load><pull set="near" axis="${{axis}}" table="0 s 0 m/s, ${{rise/2}} ${{2*stretch/rise}}, ${{rise}} 0 m/s"/></load>
+  <move><verlet until="${{time}}"/></move>
+  <watch>
+    <sensor field="mass" reduce="sum" set="gauged" every="1000" name="mass"/>
+{}{}  </watch>
+  <fill><region set="gauged" where="nx*x + ny*y + nz*z > length/4 and nx*x + ny*y + nz*z &lt; 3/4*length"/></fill>
+</scene>
+)",
+      deck_head(false), gauge_sensors("position", "${axis}", "place", 1000),
+      gauge_sensors("displacement", "${axis}", "shift", 2));
+}
+
+}  // namespace beadwork::calibration
