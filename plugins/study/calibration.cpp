@@ -96,7 +96,7 @@ class Calibration final : public Study {
        .range = {4, 50},
        .doc = "How often that rod is as long as it is wide: the front of the wave is as long as 0.4 "
               "of it, and a rod is to be thin to its waves",
-       .fallback = "6"}};
+       .fallback = "24"}};
   Param<std::string> by{
       this,
       {.name = "by",
@@ -129,7 +129,7 @@ class Calibration final : public Study {
   void conduct(const StudyDesk& desk) override {
     const calibration::Plan plan = this->plan();
     const calibration::Found found = calibration::Work(plan, desk, poisson.at()).all();
-    write_curves(plan, found, desk);
+    write_curves(found, desk);
     desk.result(result_json(plan, found));
     const auto file = desk.write(*name + ".calibration.xml", calibration::parameters(plan, found, desk.provenance));
     desk.log.say(fmt::format("written: {}", file.string()));

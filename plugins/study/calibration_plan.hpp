@@ -79,6 +79,7 @@ struct Rod {
   Modulus still, wave;  ///< E by statics, and by the wave
   Real speed = std::numeric_limits<Real>::quiet_NaN();
   Real density = std::numeric_limits<Real>::quiet_NaN();  ///< mass over volume, where elements have 1000 kg/m^3
+  Real bound = std::numeric_limits<Real>::quiet_NaN();    ///< share of its elements that bonds hold: the others stay
 };
 
 /// What the tests say of one sample.

@@ -57,7 +57,7 @@ inline std::string parameters(const Plan& plan, const Found& found, const std::s
 }
 
 /// nu_M and E_M/E_mu over the radius ratio: means, each sample, and the closed form.
-inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& desk) {
+inline void write_curves(const Found& found, const StudyDesk& desk) {
   CurvePlan poisson{.columns = {{"radius-ratio", "1"}, {"poisson", "1"}, {"deviation", "1"}},
                     .title = "Poisson's ratio of the solid",
                     .x = "radius-ratio",

@@ -19,17 +19,24 @@ class RodTests {
 
   void add_to(std::vector<Tested>& tested) {
     desk_.write("wave.xml", wave_deck());
-    std::vector<Packed> packings = pack(tested);
-    const std::vector<Outcome> still = run(packings, [&](const Packed& packing) {
-      return pulls_.errand(packing, {found_.ratio, found_.young, first_axis(plan_.decks)});
-    });
-    std::vector<Elastic> elastic;
-    for (const Outcome& one : still) elastic.push_back(pulls_.read(one, first_axis(plan_.decks), found_.young));
-    std::size_t next = 0;
-    const std::vector<Outcome> struck =
-        run(packings, [&](const Packed& packing) { return wave_errand(packing, elastic[next++]); });
-    for (std::size_t k = 0; k < struck.size(); ++k)
-      if (struck[k].is_done()) tested[k].rod = read(struck[k], elastic[k]);
+    std::vector<Trial> trials;
+    for (Tested& one : tested) trials.push_back({&one, {one.seed, "", 0, 0, 0, 0, 0}, {}});
+    run(
+        trials, [&](const Trial& trial) { return packing_errand(trial.packing.seed); },
+        [&](Trial& trial, const Outcome& packed) {
+          trial.packing.file = (packed.folder / "run.h5").lexically_relative(desk_.folder).string();
+        });
+    run(
+        trials,
+        [&](const Trial& trial) {
+          return pulls_.errand(trial.packing, {found_.ratio, found_.young, first_axis(plan_.decks)});
+        },
+        [&](Trial& trial, const Outcome& pulled) {
+          trial.elastic = pulls_.read(pulled, first_axis(plan_.decks), found_.young);
+        });
+    run(
+        trials, [&](const Trial& trial) { return wave_errand(trial.packing, trial.elastic); },
+        [&](Trial& trial, const Outcome& struck) { trial.of->rod = read(struck, trial.elastic); });
   }
 
  private:
@@ -38,31 +45,36 @@ class RodTests {
   // end throws back is there, and is so long that a rod is thin to it.
   static constexpr Real rise_ = 0.4, time_ = 1.25;
 
-  template <class Make>
-  std::vector<Outcome> run(const std::vector<Packed>& packings, const Make& make) {
+  struct Trial {
+    Tested* of;
+    Packed packing;
+    Elastic elastic;
+  };
+
+  // What does not come to its end is told, and goes no further.
+  template <class Make, class Take>
+  void run(std::vector<Trial>& trials, const Make& make, const Take& take) {
     std::vector<Errand> errands;
-    for (const Packed& packing : packings) {
-      errands.push_back(make(packing));
+    for (const Trial& trial : trials) {
+      errands.push_back(make(trial));
       errands.back().name = "rod-" + errands.back().name;
     }
-    std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    std::vector<Trial> whole;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
-      if (!outcomes[k].is_done())
+      if (outcomes[k].is_done()) {
+        take(trials[k], outcomes[k]);
+        whole.push_back(trials[k]);
+      } else {
         desk_.log.warn(fmt::format("{} is left out: {}", errands[k].name, outcomes[k].reason));
-    return outcomes;
+      }
+    trials = whole;
   }
 
-  std::vector<Packed> pack(const std::vector<Tested>& tested) {
-    std::vector<Packed> packings;
-    for (const Tested& one : tested) packings.push_back({one.seed, "", 0, 0, 0, 0, 0});
-    const std::vector<Outcome> outcomes = run(packings, [&](const Packed& packing) {
-      Errand errand{fmt::format("packing,seed={}", packing.seed), desk_.folder / "packing.xml", rod_.size()};
-      add(errand.overrides, {{"seed", std::to_string(packing.seed)}});
-      return errand;
-    });
-    for (std::size_t k = 0; k < outcomes.size(); ++k)
-      packings[k].file = (outcomes[k].folder / "run.h5").lexically_relative(desk_.folder).string();
-    return packings;
+  Errand packing_errand(std::int64_t seed) const {
+    Errand errand{fmt::format("packing,seed={}", seed), desk_.folder / "packing.xml", rod_.size()};
+    add(errand.overrides, {{"seed", std::to_string(seed)}});
+    return errand;
   }
 
   Errand wave_errand(const Packed& packing, const Elastic& elastic) const {
@@ -75,7 +87,7 @@ class RodTests {
     return errand;
   }
 
-  // c^2 is the stiffness E A over the mass of a length: the section that is named counts for the wave as for statics.
+  // c^2 is the stiffness E A over the mass of a length, of what is bound and moves: the section that is named counts for the wave as for statics.
   Rod read(const Outcome& struck, const Elastic& elastic) const {
     const auto place = [&](const char* gauge) {
       const auto places = struck.column(fmt::format("{}-place", gauge), "mean");
@@ -87,8 +99,9 @@ class RodTests {
     };
     Rod rod;
     rod.speed = (place("three-quarters") - place("quarter")) / (passing("three-quarters") - passing("quarter"));
-    const Real mass_of_length = last(struck.column("mass", "sum")) / (0.5 * rod_.extent());
-    rod.density = mass_of_length / rod_.section(false).area;
+    rod.density = last(struck.column("mass", "sum")) / (0.5 * rod_.extent() * rod_.section(false).area);
+    rod.bound = last(struck.column("bound", "count")) / last(struck.column("all", "count"));
+    const Real mass_of_length = rod.bound * rod.density * rod_.section(false).area;
     const Real section = rod_.section(plan_.through_centres).area;
     const Real by_wave = rod.speed * rod.speed * mass_of_length, still = modulus_of(plan_, elastic) * found_.young;
     rod.wave = {by_wave / section, by_wave / elastic.carrying};

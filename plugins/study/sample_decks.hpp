@@ -134,7 +134,7 @@ inline std::string elastic_deck(const std::string& by) {
       deck_head(false), is_static ? 1 : 100,
       is_static ? R"(velocity="${sense*stretch/time}")"
                 : R"(table="0 s 0 m/s, ${time/2} ${2*sense*stretch/time}, ${time} 0 m/s")",
-      is_static ? R"(<static increment="${stretch}" until="${stretch}"/>)"
+      is_static ? R"(<static increment="${stretch}" free="pin" until="${stretch}"/>)"
                 : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)");
 }
 

@@ -16,12 +16,18 @@ inline std::string gauges_deck() {
   return fmt::format("{}  <fill>\n{}  </fill>\n</scene>\n", deck_head(true), regions);
 }
 
-/// Sensors of a field along `component` in each of these slices: quarter-what, half-what, ...
-inline std::string gauge_sensors(const char* field, const std::string& component, const char* what, int every) {
+/// Of a displacement. What nothing binds stays where it is to the last bit, and tells nothing of the solid.
+inline constexpr const char* bound_only = R"( where="value &lt; 0 or value > 0")";
+
+/// Sensors along `component` in each of these slices: quarter-place, half-place, ..., and quarter-NAME, ...
+inline std::string gauge_sensors(const std::string& component, const char* name, int every) {
   std::string sensors;
-  for (const char* name : {"quarter", "half", "three-quarters"})
-    sensors += fmt::format("    <sensor field=\"{0}\" component=\"{1}\" set=\"{2}\" every=\"{3}\" name=\"{2}-{4}\"/>\n",
-                           field, component, name, every, what);
+  for (const char* slice : {"quarter", "half", "three-quarters"})
+    sensors += fmt::format(
+        R"(    <sensor field="position" component="${{axis}}" set="{0}" every="1000" name="{0}-place"/>
+    <sensor field="displacement" component="{1}" set="{0}"{2} every="{3}" name="{0}-{4}"/>
+)",
+        slice, component, bound_only, every, name);
   return sensors;
 }
 
@@ -40,14 +46,13 @@ inline std::string bending_deck(const SampleDecks& d) {
     <turn set="near" axis="y" about="{}" along="free" velocity="${{-angle/2}} rad/s"/>
     <turn set="far"  axis="y" about="{}" along="free" velocity="${{angle/2}} rad/s"/>
   </load>
-  <move><static time-step="1 s" until="1 s"/></move>
+  <move><static time-step="1 s" free="pin" until="1 s"/></move>
   <watch>
     <force-curve of="far" axis="ry" every="1" name="torque"/>
-{}{}  </watch>
+{}  </watch>
 </scene>
 )",
-      deck_head(false), near, far, gauge_sensors("position", "${axis}", "place", 1),
-      gauge_sensors("displacement", d.is_cylinder ? "x" : "z", "deflection", 1));
+      deck_head(false), near, far, gauge_sensors(d.is_cylinder ? "x" : "z", "deflection", 1));
 }
 
 /// The ends are turned against each other about the sample's axis, along which they are free to warp.
@@ -62,7 +67,7 @@ inline std::string torsion_deck() {
     <turn set="near" axis="${{axis}}" about="${{a/2}} ${{a/2}} ${{a/2}}" along="free" velocity="${{-angle/2}} rad/s"/>
     <turn set="far"  axis="${{axis}}" about="${{a/2}} ${{a/2}} ${{a/2}}" along="free" velocity="${{angle/2}} rad/s"/>
   </load>
-  <move><static time-step="1 s" until="1 s"/></move>
+  <move><static time-step="1 s" free="pin" until="1 s"/></move>
   <watch><force-curve of="far" axis="r${{axis}}" every="1" name="torque"/></watch>
 </scene>
 )",
@@ -78,17 +83,18 @@ inline std::string wave_deck() {
   <parameter name="stretch" value="1e-6 mm"/>
   <parameter name="rise"    value="1 us"/>
   <parameter name="time"    value="2 us"/>
-  <parameter name="every"   value="2"/>
+  <parameter name="every"   value="1000"/>
   <load><pull set="near" axis="${{axis}}" table="0 s 0 m/s, ${{rise/2}} ${{2*stretch/rise}}, ${{rise}} 0 m/s"/></load>
   <move><verlet until="${{time}}"/></move>
   <watch>
     <sensor field="mass" reduce="sum" set="gauged" every="1000" name="mass"/>
-{}{}  </watch>
+    <sensor field="mass" reduce="count" set="gauged" every="1000" name="all"/>
+    <sensor field="displacement" component="${{axis}}" reduce="count" set="gauged"{} every="2" name="bound"/>
+{}  </watch>
   <fill><region set="gauged" where="nx*x + ny*y + nz*z > length/4 and nx*x + ny*y + nz*z &lt; 3/4*length"/></fill>
 </scene>
 )",
-      deck_head(false), gauge_sensors("position", "${axis}", "place", 1000),
-      gauge_sensors("displacement", "${axis}", "shift", 2));
+      deck_head(false), bound_only, gauge_sensors("${axis}", "shift", 2));
 }
 
 }  // namespace beadwork::calibration

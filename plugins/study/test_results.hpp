@@ -154,9 +154,11 @@ inline std::string moduli_json(const std::vector<Modulus>& values) {
 inline std::string rods_json(const Plan& plan, const std::vector<Rod>& rods) {
   std::vector<Modulus> still;
   for (const Rod& rod : rods) still.push_back(rod.still);
-  return fmt::format(R"("elements":{},"slenderness":{},"speed":{},"density":{},"by_statics":{{{}}},"over_that":{})",
-                     plan.rod_elements, format_number(plan.slenderness), numbers_json(each(rods, &Rod::speed)),
-                     numbers_json(each(rods, &Rod::density)), moduli_json(still), numbers_json(wave_over_still(rods)));
+  return fmt::format(
+      R"("elements":{},"slenderness":{},"speed":{},"density":{},"share_bound":{},"by_statics":{{{}}},"over_that":{})",
+      plan.rod_elements, format_number(plan.slenderness), numbers_json(each(rods, &Rod::speed)),
+      numbers_json(each(rods, &Rod::density)), numbers_json(each(rods, &Rod::bound)), moduli_json(still),
+      numbers_json(wave_over_still(rods)));
 }
 
 /// The entry "tests" of the result.
