@@ -25,13 +25,6 @@ inline Section round_section(Real area) {
   return {area, area * area / (4 * std::numbers::pi), area * area / (2 * std::numbers::pi)};
 }
 
-/// The curvature of the parabola through three points of a deflection [1/m].
-inline Real curvature_through(const Vec3& place, const Vec3& deflection) {
-  const Real first = (deflection[1] - deflection[0]) / (place[1] - place[0]);
-  const Real second = (deflection[2] - deflection[1]) / (place[2] - place[1]);
-  return 2 * (second - first) / (place[2] - place[0]);
-}
-
 /// When a quantity first passes `level` on its way up, by straight lines between the times; NaN if it never does.
 inline Real passing_time(std::span<const Real> time, std::span<const Real> value, Real level) {
   for (std::size_t k = 1; k < value.size() && k < time.size(); ++k)

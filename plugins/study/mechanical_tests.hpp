@@ -89,18 +89,20 @@ class MechanicalTests {
     on_each([&](std::size_t k) { return plain_errand("bending", k); },
             [&](std::size_t k, const Outcome& outcome) {
               const Real moment = std::abs(last(outcome.column("torque", "torque")));
-              Vec3 place, deflection;
-              for (const auto& [row, gauge] : {std::pair{0, "quarter"}, {1, "half"}, {2, "three-quarters"}}) {
-                const auto places = outcome.column(fmt::format("{}-place", gauge), "mean");
-                place[row] = places.empty() ? unknown : places[0];
-                deflection[row] = last(outcome.column(fmt::format("{}-deflection", gauge), "mean"));
-              }
-              const Real curvature = std::abs(curvature_through(place, deflection));
+              const Real apart = first(outcome, "three-quarters-place") - first(outcome, "quarter-place");
+              const Real curvature = std::abs(tilt(outcome, "three-quarters") - tilt(outcome, "quarter")) / apart;
               tested_[k].moduli["bending"] = over(moment / curvature, &Section::second_moment, k);
-              const Real turn = 2 * std::abs(last(outcome.column("torque", "turn")));
+              const Real turn = 2 * std::abs(last(outcome.column("torque", "turn")));  // each end by half of it
               tested_[k].from_ends =
                   over(moment * length_between_grips(outcome) / turn, &Section::second_moment, k).section;
             });
+  }
+
+  // By how much a slice has turned: its half above has gone farther along the axis than that below.
+  static Real tilt(const Outcome& outcome, const std::string& slice) {
+    const std::string above = slice + "-above", below = slice + "-below";
+    return (last(outcome.column(above + "-shift", "mean")) - last(outcome.column(below + "-shift", "mean"))) /
+           (first(outcome, above + "-place") - first(outcome, below + "-place"));
   }
 
   // G = T L/(J phi).
@@ -108,7 +110,7 @@ class MechanicalTests {
     on_each([&](std::size_t k) { return plain_errand("torsion", k); },
             [&](std::size_t k, const Outcome& outcome) {
               const Real torque = last(outcome.column("torque", "torque"));
-              const Real turn = 2 * last(outcome.column("torque", "turn"));  // each end by half of it
+              const Real turn = 2 * last(outcome.column("torque", "turn"));
               tested_[k].moduli["torsion"] = over(torque * length_between_grips(outcome) / turn, &Section::torsion, k);
             });
   }

@@ -12,11 +12,14 @@ inline constexpr Real unknown = std::numeric_limits<Real>::quiet_NaN();
 
 inline Real last(std::span<const Real> values) { return values.empty() ? unknown : values.back(); }
 
-/// Between the mean places of the grips at the beginning [m].
-inline Real length_between_grips(const Outcome& outcome) {
-  const auto near = outcome.column("near", "mean"), far = outcome.column("far", "mean");
-  return near.empty() || far.empty() ? unknown : far[0] - near[0];
+/// What a sensor of a mean told at the beginning.
+inline Real first(const Outcome& outcome, const std::string& sensor) {
+  const auto values = outcome.column(sensor, "mean");
+  return values.empty() ? unknown : values[0];
 }
+
+/// Between the mean places of the grips at the beginning [m].
+inline Real length_between_grips(const Outcome& outcome) { return first(outcome, "far") - first(outcome, "near"); }
 
 class Pulls {
  public:

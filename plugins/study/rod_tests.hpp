@@ -89,16 +89,13 @@ class RodTests {
 
   // c^2 is the stiffness E A over the mass of a length, of what is bound and moves: the section that is named counts for the wave as for statics.
   Rod read(const Outcome& struck, const Elastic& elastic) const {
-    const auto place = [&](const char* gauge) {
-      const auto places = struck.column(fmt::format("{}-place", gauge), "mean");
-      return places.empty() ? unknown : places[0];
-    };
     const auto passing = [&](const char* gauge) {
       const std::string shift = fmt::format("{}-shift", gauge);
       return passing_time(struck.column(shift, "time"), struck.column(shift, "mean"), 0.5 * strain_ * rod_.extent());
     };
     Rod rod;
-    rod.speed = (place("three-quarters") - place("quarter")) / (passing("three-quarters") - passing("quarter"));
+    rod.speed = (first(struck, "three-quarters-place") - first(struck, "quarter-place")) /
+                (passing("three-quarters") - passing("quarter"));
     rod.density = last(struck.column("mass", "sum")) / (0.5 * rod_.extent() * rod_.section(false).area);
     rod.bound = last(struck.column("bound", "count")) / last(struck.column("all", "count"));
     const Real mass_of_length = rod.bound * rod.density * rod_.section(false).area;

@@ -5,10 +5,10 @@
 
 namespace beadwork::calibration {
 
-/// Slices across a sample, an eighth of its length thick, at a quarter, the half and three quarters of it.
+/// Slices across a sample, an eighth of its length thick, at a quarter and three quarters of it.
 inline std::string gauges_deck() {
   std::string regions;
-  for (const auto& [name, place] : {std::pair{"quarter", 4}, {"half", 8}, {"three-quarters", 12}})
+  for (const auto& [name, place] : {std::pair{"quarter", 4}, {"three-quarters", 12}})
     regions += fmt::format(
         "    <region set=\"{0}\" where=\"nx*x + ny*y + nz*z > {1}/16*length and nx*x + ny*y + nz*z &lt; "
         "{2}/16*length\"/>\n",
@@ -19,20 +19,31 @@ inline std::string gauges_deck() {
 /// Of a displacement. What nothing binds stays where it is to the last bit, and tells nothing of the solid.
 inline constexpr const char* bound_only = R"( where="value &lt; 0 or value > 0")";
 
-/// Sensors along `component` in each of these slices: quarter-place, half-place, ..., and quarter-NAME, ...
-inline std::string gauge_sensors(const std::string& component, const char* name, int every) {
-  std::string sensors;
-  for (const char* slice : {"quarter", "half", "three-quarters"})
-    sensors += fmt::format(
-        R"(    <sensor field="position" component="${{axis}}" set="{0}" every="1000" name="{0}-place"/>
-    <sensor field="displacement" component="{1}" set="{0}"{2} every="{3}" name="{0}-{4}"/>
+/// Two sensors of a set: SET-place, its mean place along `across`, and SET-shift, its mean displacement along the axis.
+inline std::string gauge(const std::string& set, const std::string& across, int every) {
+  return fmt::format(
+      R"(    <sensor field="position" component="{1}" set="{0}" every="1000" name="{0}-place"/>
+    <sensor field="displacement" component="${{axis}}" set="{0}"{2} every="{3}" name="{0}-shift"/>
 )",
-        slice, component, bound_only, every, name);
-  return sensors;
+      set, across, bound_only, every);
 }
 
 /// The ends are turned against each other about y, an axis across: both stay plane, and their places along y are free.
+/// Halves of the slices tell by how much these have turned.
 inline std::string bending_deck(const SampleDecks& d) {
+  const std::string across = d.is_cylinder ? "x" : "z";
+  std::string halves, gauges;
+  for (const char* slice : {"quarter", "three-quarters"})
+    for (const auto& [half, side] : {std::pair{"below", "&lt;"}, {"above", ">"}}) {
+      const std::string set = fmt::format("{}-{}", slice, half);
+      const int place = std::string(slice) == "quarter" ? 4 : 12;
+      halves += fmt::format(
+          "    <region set=\"{}\" where=\"nx*x + ny*y + nz*z > {}/16*length and nx*x + ny*y + nz*z &lt; {}/16*length "
+          "and "
+          "{} {} a/2\"/>\n",
+          set, place - 1, place + 1, across, side);
+      gauges += gauge(set, across, 1);
+    }
   const char* near = d.is_cylinder ? "${a/2} ${a/2} ${R}" : "${R} ${a/2} ${a/2}";
   const char* far = d.is_cylinder ? "${a/2} ${a/2} ${length - R}" : "${length - R} ${a/2} ${a/2}";
   return fmt::format(
@@ -41,6 +52,8 @@ inline std::string bending_deck(const SampleDecks& d) {
   <include file="gauges.xml"/>
   <parameter name="angle" value="1e-6"/>               <!-- between the ends -->
   <parameter name="every" value="1"/>
+  <fill>
+{}  </fill>
   <load>
     <hold set="near" axes="y" grip="mean"/>
     <turn set="near" axis="y" about="{}" along="free" velocity="${{-angle/2}} rad/s"/>
@@ -49,10 +62,12 @@ inline std::string bending_deck(const SampleDecks& d) {
   <move><static time-step="1 s" free="pin" until="1 s"/></move>
   <watch>
     <force-curve of="far" axis="ry" every="1" name="torque"/>
+    <sensor field="position" component="${{axis}}" set="quarter"        every="1000" name="quarter-place"/>
+    <sensor field="position" component="${{axis}}" set="three-quarters" every="1000" name="three-quarters-place"/>
 {}  </watch>
 </scene>
 )",
-      deck_head(false), near, far, gauge_sensors(d.is_cylinder ? "x" : "z", "deflection", 1));
+      deck_head(false), halves, near, far, gauges);
 }
 
 /// The ends are turned against each other about the sample's axis, along which they are free to warp.
@@ -94,7 +109,7 @@ inline std::string wave_deck() {
   <fill><region set="gauged" where="nx*x + ny*y + nz*z > length/4 and nx*x + ny*y + nz*z &lt; 3/4*length"/></fill>
 </scene>
 )",
-      deck_head(false), bound_only, gauge_sensors("${axis}", "shift", 2));
+      deck_head(false), bound_only, gauge("quarter", "${axis}", 2) + gauge("three-quarters", "${axis}", 2));
 }
 
 }  // namespace beadwork::calibration

@@ -25,12 +25,6 @@ TEST(Section, that_is_square_warps_when_it_is_twisted) {
   EXPECT_LT(square_section(9).torsion, 2 * square_section(9).second_moment);  // that of one that stays plane
 }
 
-TEST(Curvature, of_a_parabola_is_exact_wherever_it_is_measured) {
-  const auto deflection = [](Real x) { return 3 - 2 * x + 0.5 * 7 * x * x; };
-  const Vec3 place{0.1, 0.25, 0.9};
-  EXPECT_NEAR(curvature_through(place, {deflection(0.1), deflection(0.25), deflection(0.9)}), 7, 1e-12);
-}
-
 TEST(PassingTime, lies_between_two_looks_and_is_the_first) {
   const std::vector<Real> time{0, 1, 2, 3, 4}, value{0, 0, 4, 1, 9};
   EXPECT_DOUBLE_EQ(passing_time(time, value, 1), 1.25);
