@@ -166,12 +166,7 @@ class Calibration final : public Study {
   }
 
   void check_rod(Complaints& complaints) const {
-    for (const ParamBase* param :
-         {static_cast<const ParamBase*>(&rod_elements), static_cast<const ParamBase*>(&slenderness)})
-      if (param->in_deck() && tests.given() && !tests_waves())
-        complaints.error(param->at(), fmt::format("'{}' is of the rod along which a wave runs: add wave to 'tests'",
-                                                  param->info().name));
-    if (!rod_elements.given() || !slenderness.given() || !shape.given() ||
+    if (!tests_waves() || !rod_elements.given() || !slenderness.given() || !shape.given() ||
         across(*rod_elements, *slenderness) >= fewest_across_)
       return;
     complaints.error(rod_elements.at(),
