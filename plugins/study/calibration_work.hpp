@@ -29,8 +29,9 @@ class Work {
     find_ratio();
     find_young();
     look_along_other_axes();
-    draw_line();
-    found_.tested = MechanicalTests(plan_, desk_, found_).all();
+    MechanicalTests tests(plan_, desk_, found_);
+    found_.tested = tests.all();
+    found_.line = tests.line();
     for (const std::string& line : test_lines(plan_, found_.tested)) desk_.log.say(line);
     if (plan_.material.strength) found_.strengths = StrengthTests(plan_, desk_, found_).all();
     return found_;
@@ -177,21 +178,6 @@ class Work {
   }
   std::string inverse_text(Real Elastic::*modulus) const {
     return format_number(rounded(1 / scatter_of(each(found_.elastic, modulus)).mean, significant));
-  }
-
-  // By runs of their own: the sample knows nothing of proportion.
-  void draw_line() {
-    std::vector<Errand> errands;
-    std::vector<Real> young;
-    for (const Real share : {0.5, 1.0, 1.5}) {
-      young.push_back(rounded(share * found_.young, significant));
-      errands.push_back(pulls_.errand(found_.packings.front(), {found_.ratio, young.back(), first_axis()}));
-    }
-    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      const Real ratio = modulus_of(plan_, pulls_.read(outcomes[k], first_axis(), young[k]));
-      if (outcomes[k].is_done() && std::isfinite(ratio)) found_.line.push_back({young[k], ratio * young[k]});
-    }
   }
 
   void look_along_other_axes() {

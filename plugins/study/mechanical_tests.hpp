@@ -15,6 +15,7 @@ class MechanicalTests {
   MechanicalTests(const Plan& plan, const StudyDesk& desk, const Found& found)
       : plan_(plan), samples_(plan), pulls_(plan, desk.folder, "static"), desk_(desk), found_(found) {}
 
+  /// To be called first.
   std::vector<Tested> all() {
     if (plan_.decks.by != "static") desk_.write(pulls_.deck(), elastic_deck("static"));
     desk_.write("gauges.xml", gauges_deck());
@@ -28,6 +29,27 @@ class MechanicalTests {
     if (wants("torsion")) twist();
     if (wants("wave")) RodTests(plan_, desk_, found_).add_to(tested_);
     return tested_;
+  }
+
+  /// E of the first sample where bonds are half as stiff, as stiff as was found, and stiffer by half: by runs of their
+  /// own, as no sample knows of proportion.
+  std::vector<std::array<Real, 2>> line() {
+    std::vector<Errand> errands;
+    std::vector<Real> young;
+    for (const Real share : {0.5, 1.5}) {
+      young.push_back(rounded(share * found_.young, significant));
+      errands.push_back(pulls_.errand(packing(0), {found_.ratio, young.back(), axis()}));
+    }
+    const std::vector<Outcome> outcomes = desk_.runner.run(errands);
+    std::map<Real, Real> points;
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      points[young[k]] = modulus_of(plan_, pulls_.read(outcomes[k], axis(), young[k])) * young[k];
+    if (const auto here = tested_.front().moduli.find("tension"); here != tested_.front().moduli.end())
+      points[found_.young] = here->second.section;
+    std::erase_if(points, [](const auto& point) { return !std::isfinite(point.second); });
+    std::vector<std::array<Real, 2>> line;
+    for (const auto& [of_bonds, of_solid] : points) line.push_back({of_bonds, of_solid});
+    return line;
   }
 
  private:
