@@ -2,6 +2,8 @@
 // What the tests of the samples say, side by side: lines for the terminal and for the file of parameters, and figures
 // for summary.json.
 
+#include <fmt/ranges.h>
+
 #include "plugins/study/calibration_texts.hpp"
 
 namespace beadwork::calibration {
@@ -179,9 +181,10 @@ inline std::string tests_json(const Plan& plan, const std::vector<Tested>& all) 
     text += "}";
   }
   const std::vector<Saying> said = sayings(all);
-  return fmt::format(R"("tests":{{{},"farthest_from_tension":{{"over_section":{},"over_what_carries":{}}}}})", text,
-                     number_json(farthest(said, &Modulus::section).by),
-                     number_json(farthest(said, &Modulus::carrying).by));
+  return fmt::format(
+      R"("tests":{{"lines":["{}"],{},"farthest_from_tension":{{"over_section":{},"over_what_carries":{}}}}})",
+      fmt::join(test_lines(plan, all), R"(",")"), text, number_json(farthest(said, &Modulus::section).by),
+      number_json(farthest(said, &Modulus::carrying).by));
 }
 
 }  // namespace beadwork::calibration

@@ -2,6 +2,7 @@
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -36,7 +37,8 @@ def found():
     assert first[0] == "radius-ratio [1],poisson [1],deviation [1],seed-1 [1],seed-2 [1]", first[0]
     rows = [[float(cell) for cell in line.split(",")] for line in first[1:]]
     assert all(a[0] < b[0] and a[1] > b[1] for a, b in zip(rows, rows[1:])), rows  # it falls
-    assert "<svg" in (folder / "report.html").read_text()
+    report = (folder / "report.html").read_text()
+    assert "<svg" in report and re.search(r"<pre>test .*\ntension .*\ncompression .*\nbending .*\ntorsion .*\ncore ", report)
 
 
 def known():
