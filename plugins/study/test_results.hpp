@@ -10,12 +10,6 @@ namespace beadwork::calibration {
 
 inline constexpr const char* every_test[] = {"tension", "compression", "bending", "torsion", "wave"};
 
-/// What one test says: Young's modulus over both sections, as a mean over the samples [Pa].
-struct Saying {
-  std::string test;
-  Modulus young;
-};
-
 /// Of one sample; of torsion 2 (1 + nu) G. Nothing where it was not tested so.
 inline std::optional<Modulus> young_by(const Tested& one, const std::string& test) {
   if (test == "wave") return one.rod ? std::optional(one.rod->wave) : std::nullopt;
@@ -32,24 +26,54 @@ inline std::vector<Modulus> young_of_all(const std::vector<Tested>& all, const s
   return values;
 }
 
+inline std::vector<Rod> rods_of(const std::vector<Tested>& all) {
+  std::vector<Rod> rods;
+  for (const Tested& one : all)
+    if (one.rod) rods.push_back(*one.rod);
+  return rods;
+}
+
+/// E by the wave over E by statics of the same rods.
+inline std::vector<Real> wave_over_still(const std::vector<Rod>& rods) {
+  std::vector<Real> values;
+  for (const Rod& rod : rods) values.push_back(rod.wave.section / rod.still.section);
+  return values;
+}
+
+/// E by a test over E by tension: of means over the samples. By the wave over E by statics of the same rods, as these are
+/// narrower than the samples.
+struct Saying {
+  std::string test;
+  Modulus over_tension;
+};
+
 inline std::vector<Saying> sayings(const std::vector<Tested>& all) {
+  const auto mean = [&](const std::string& test, Real Modulus::*over) {
+    return scatter_of(each(young_of_all(all, test), over)).mean;
+  };
   std::vector<Saying> said;
-  for (const char* test : every_test)
-    if (const auto young = young_of_all(all, test); !young.empty())
-      said.push_back(
-          {test, {scatter_of(each(young, &Modulus::section)).mean, scatter_of(each(young, &Modulus::carrying)).mean}});
+  if (young_of_all(all, "tension").empty()) return said;
+  for (const std::string test : {"compression", "bending", "torsion"})
+    if (!young_of_all(all, test).empty())
+      said.push_back({test,
+                      {mean(test, &Modulus::section) / mean("tension", &Modulus::section),
+                       mean(test, &Modulus::carrying) / mean("tension", &Modulus::carrying)}});
+  if (const std::vector<Rod> rods = rods_of(all); !rods.empty()) {
+    const Real ratio = scatter_of(wave_over_still(rods)).mean;
+    said.push_back({"wave", {ratio, ratio}});
+  }
   return said;
 }
 
 /// The saying that is farthest from that of tension, and by how much of it.
 struct Farthest {
-  std::string test;
+  std::string test = "tension";
   Real by = 0;
 };
 inline Farthest farthest(const std::vector<Saying>& said, Real Modulus::*over) {
   Farthest most;
   for (const Saying& one : said)
-    if (const Real by = std::abs(one.young.*over / (said.front().young.*over) - 1); by > most.by) most = {one.test, by};
+    if (const Real by = std::abs(one.over_tension.*over - 1); by > most.by) most = {one.test, by};
   return most;
 }
 
@@ -69,33 +93,17 @@ inline std::vector<Modulus> shear_of_all(const std::vector<Tested>& all) {
   return values;
 }
 
-inline std::vector<Rod> rods_of(const std::vector<Tested>& all) {
-  std::vector<Rod> rods;
-  for (const Tested& one : all)
-    if (one.rod) rods.push_back(*one.rod);
-  return rods;
-}
-
-/// E by the wave over E by statics of the same rods.
-inline std::vector<Real> wave_over_still(const std::vector<Rod>& rods) {
-  std::vector<Real> values;
-  for (const Rod& rod : rods) values.push_back(rod.wave.section / rod.still.section);
-  return values;
-}
-
 inline std::string gigapascals(std::vector<Real> values) {
   for (Real& value : values) value *= 1e-9;
   return spread_text(values);
 }
 
-/// "the material is what each test says it is: ..."
+/// How well they agree, as shares of what tension says.
 inline std::string agreement_text(const std::vector<Saying>& said) {
+  if (said.empty()) return "";
   const Farthest plain = farthest(said, &Modulus::section), carried = farthest(said, &Modulus::carrying);
-  if (said.size() < 2) return "";
-  return fmt::format(
-      "E is what tension says to {:.2g} % by each test ({} is farthest); over the section that carries to {:.2g} % "
-      "({})",
-      100 * plain.by, plain.test, 100 * carried.by, carried.test);
+  return fmt::format("each test says what tension does: E to {:.2g} % ({} is farthest), E_c to {:.2g} % ({})",
+                     100 * plain.by, plain.test, 100 * carried.by, carried.test);
 }
 
 /// What is to be said of a test beside its E.
