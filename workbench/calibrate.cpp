@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 
-#include "core/io/own_folder.hpp"
 #include "core/loop/bounded_json.hpp"
-#include "core/loop/json_text.hpp"
 #include "core/loop/scene_runner.hpp"
-#include "core/loop/summary.hpp"
 #include "core/version.hpp"
+#include "workbench/office.hpp"
 #include "workbench/progress.hpp"
 #include "workbench/report/report.hpp"
 #include "workbench/signals.hpp"
@@ -22,7 +19,6 @@ namespace beadwork {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct CalibrateArguments {
   DeckArguments deck;
@@ -42,53 +38,6 @@ DeckRequest request_of(const CalibrateArguments& arguments) {
   give("tests", arguments.tests);
   return request;
 }
-
-// The folder of a study: what is written into it, and how it went.
-class Office {
- public:
-  Office(const CalibrateArguments& arguments, const Loaded& loaded)
-      : scene_(*loaded.scene), folder_(arguments.out, Manifest::Of::study) {
-    summary_ = {{"name", scene_.name}, {"study", scene_.studies.front()->tag()}, {"status", "running"},
-                {"exit_reason", ""},   {"deck_sha256", scene_.deck_sha256},      {"version", version}};
-    write("resolved.xml", scene_.resolved);
-  }
-
-  fs::path write(const std::string& name, std::string_view text) {
-    const fs::path file = folder_.claim(name);
-    fs::create_directories(file.parent_path());
-    write_atomically(file, text);
-    return file;
-  }
-
-  void curve(const std::string& name, const CurvePlan& plan, const std::vector<std::vector<Real>>& rows) {
-    std::string text;
-    for (const auto& [column, unit] : plan.columns)
-      text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column, unit);
-    text += "\n";
-    for (const auto& row : rows) text += fmt::format("{}\n", fmt::join(row, ","));
-    write("curves/" + name + ".csv", text);
-    write("curves/" + name + ".json", curve_json(plan));
-  }
-
-  void take_result(const std::string& json) { summary_["result"] = bounded_json(json); }
-
-  void close(const std::string& status, ExitCode code, const std::string& reason, const SceneRunner& runner) {
-    summary_["status"] = status;
-    summary_["exit_reason"] = reason;
-    summary_["exit_code"] = static_cast<int>(code);
-    summary_["runs"] = {{"run", runner.runs()}, {"known", runner.known()}};
-    summary_["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
-    write("summary.json", json_text(summary_, 2) + "\n");
-  }
-
-  const fs::path& root() const { return folder_.root(); }
-
- private:
-  const Scene& scene_;
-  OwnFolder folder_;
-  Json summary_;
-  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-};
 
 SceneRunnerOptions runner_options(const CalibrateArguments& arguments, Progress& progress, const Log& log) {
   SceneRunnerOptions options;
@@ -111,7 +60,7 @@ int calibrate(const CalibrateArguments& arguments) {
         loaded.deck->root->at,
         fmt::format("this deck has no <study>: it is a scene. Do: beadwork run {} --out FOLDER", arguments.deck.path));
   Study& study = *loaded.scene->studies.front();
-  Office office(arguments, loaded);
+  Office office(arguments.out, *loaded.scene, study.tag());
   Progress progress([](const std::string& line) { say("{}\n", line), std::fflush(stdout); });
   const auto tell = [&](const std::string& line) {
     progress.hide();
@@ -131,7 +80,7 @@ int calibrate(const CalibrateArguments& arguments) {
                   loaded.scene->deck_sha256),
       [&](const std::string& name, std::string_view text) { return fs::absolute(office.write(name, text)); },
       [&](const std::string& name, const CurvePlan& plan, const auto& rows) { office.curve(name, plan, rows); },
-      [&](const std::string& json) { office.take_result(json); }};
+      [&](const std::string& json) { office.take_result(bounded_json(json)); }};
   try {
     study.conduct(desk);
   } catch (const Fault& fault) {

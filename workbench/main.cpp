@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   add_new(app, chosen);
   add_batch(app, chosen, words);
   add_calibrate(app, chosen, words);
+  add_law(app, chosen, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -32,6 +32,7 @@ void add_plan(CLI::App& app, Chosen& chosen);
 void add_new(CLI::App& app, Chosen& chosen);
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words);
 void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words);
+void add_law(CLI::App& app, Chosen& chosen, const Words& words);
 
 /// What every verb that reads a deck takes.
 struct DeckArguments {

@@ -209,14 +209,18 @@ void require_whole(const Domain& domain) {
         throw MachineFailure(fmt::format("set '{}' names element {} of {}", name, row, elements));
 }
 
-// What the scene lists follows from the deck: its rows are there already.
+// What the scene lists follows from the deck: its rows are there already. A list that it has not made is one that a mover
+// will ask for later.
 void load_lists(hid_t place, Domain& domain) {
   const h5::Handle group = h5::open_group(place, "lists");
-  for (auto& [name, list] : domain.lists()) {
+  for (const auto& [name, list] : domain.lists())
     if (!h5::has(group.id(), name) || saved_rows(group.id(), name) != list.size())
       throw DeckFailure(
           fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it",
                       list.size(), name));
+  for (const std::string& name : h5::names_in(group.id())) {
+    Table& list = domain.list(name);
+    list.resize(saved_rows(group.id(), name));
     load_columns(group.id(), name, list, On::scene, fmt::format("the scene's {}", name));
   }
 }

@@ -64,4 +64,10 @@ fs::path OwnFolder::claim(const std::string& name) {
   return root_ / name;
 }
 
+void OwnFolder::clear() {
+  std::error_code gone_already;
+  if (!list_) return;
+  for (const std::string& file : list_->files()) fs::remove(root_ / file, gone_already);
+}
+
 }  // namespace beadwork

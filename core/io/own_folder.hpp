@@ -15,6 +15,8 @@ class OwnFolder {
   OwnFolder(const std::filesystem::path& root, Manifest::Of of);
   /// Where a file stands that is to be written now. DeckFailure if somebody else's is there.
   std::filesystem::path claim(const std::string& name);
+  /// Removes the files that a former one has made here, and nothing else.
+  void clear();
   const std::filesystem::path& root() const { return root_; }
 
  private:

@@ -22,6 +22,7 @@ Run::Run(Scene& scene, const Catalogue& catalogue, RunFolder& folder, RunOptions
       record_(state_, catalogue, folder, options_, fresh_, balance_),
       seen_(state_, balance_, record_),
       looks_(state_, fresh_, offered_, seen_, options_.log) {
+  state_.note_lists();
   use_threads(options_.threads);
   scene.bind();
 }
@@ -83,6 +84,7 @@ void Run::begin_stage() {
   Moment& now = state_.moment;
   now.stage_start = now.time;
   now.stage_step = now.step;
+  state_.forget_lists_of_movers();
   create_families(state_, options_);
   let_laws_act(state_);
   fresh_.begin_stage();

@@ -52,6 +52,15 @@ RunState::RunState(Scene& s)
                           static_cast<Index>(k));
 }
 
+void RunState::note_lists() {
+  for (const auto& [name, list] : domain().lists()) lists_.push_back(name);
+}
+
+void RunState::forget_lists_of_movers() {
+  std::erase_if(domain().lists(),
+                [&](const auto& list) { return !std::binary_search(lists_.begin(), lists_.end(), list.first); });
+}
+
 void RunState::keep_constraints() {
   Table& list = list_of(domain(), "constraints", count(constraints));
   Index row = 0;

@@ -67,10 +67,14 @@ class RunState {
   Kept& released_by(const BondTable& table) { return released[static_cast<std::size_t>(number_of(table))]; }
   /// The number that the watcher of this name told at its last look in this stage; nothing before the first.
   std::optional<Real> told_by(const std::string& watcher) const;
+  /// The lists that there are now are the run's own; what a mover lists for itself ends with its stage.
+  void note_lists();
+  void forget_lists_of_movers();
   /// Most constraints of any stage.
   std::size_t most_held() const;
 
  private:
+  std::vector<std::string> lists_;  ///< that are the run's own
   void keep_constraints();
   void keep_peaks();
   void keep_watchers();

@@ -24,10 +24,8 @@ class Timer {
 
 // A factor is kept for so many iterations, and not after one that leaves more than this of the least that was left: then
 // the stiffness is too far off.
-constexpr int patience = 10;
+constexpr int patience = 20;
 constexpr Real slow = 2;
-// An equilibrium so many times as far away as the first stiffness has it is another one: something has snapped.
-constexpr Real far = 4;
 
 }  // namespace
 
@@ -44,11 +42,48 @@ const char* in_words(Reason reason) {
   return "";
 }
 
-// The change of what supports take and of loads, and a thousandth of what stands: near a peak the change alone is nothing.
-Real Newton::what_it_does(const Vector& f, const Vector& unbalanced, const Vector& at_start, Real loads) const {
-  const Vector before = at_start - model_.supports().unbalanced(at_start), now = f - unbalanced;
-  return std::max({loads, (now - before).norm(), 1e-3 * now.norm()});
-}
+/// Holds residual, displacement and energy of an increment against what it does: the change of what supports take and of
+/// loads, and a thousandth of what stands, as near a peak the change alone is nothing.
+class Newton::Judge {
+ public:
+  Judge(const StaticModel& model, const Vector& at_start, Real tolerance)
+      : model_(model), at_start_(at_start), tolerance_(tolerance), unbalanced_(model.supports().unbalanced(at_start)) {
+    taken_before_ = at_start - unbalanced_;
+    loads_ = left_ = unbalanced_.norm();
+    moved_ = Vector::Zero(at_start.size());
+  }
+
+  /// Whether, after a step `du` that has led to these forces, the equilibrium is found.
+  bool finds(const Vector& f, const Vector& du) {
+    moved_ += du;
+    if (first_ < 0) first_ = du.norm();
+    unbalanced_ = model_.supports().unbalanced(f);
+    left_ = unbalanced_.norm();
+    const Vector taken = f - unbalanced_;
+    does_ = std::max({loads_, (taken - taken_before_).norm(), 1e-3 * taken.norm()});
+    const Real energy = std::abs(at_start_.dot(moved_)) + std::abs(taken.dot(moved_));
+    const bool still = du.norm() <= tolerance_ * moved_.norm();
+    const bool spent = std::abs(unbalanced_.dot(du)) <= tolerance_ * energy;
+    return left_ <= allowed() && ((still && spent) || left_ <= 1e-3 * tolerance_ * does_ + floor());
+  }
+  void tell(NewtonResult& result) const {
+    result.reference = does_;
+    result.residual = left_ > floor() ? left_ / does_ : 0;
+  }
+  Real left() const { return left_; }
+  Real floor() const { return model_.noise(); }
+  /// The least that is asked for, in newtons.
+  Real allowed() const { return tolerance_ * does_ + floor(); }
+  /// An equilibrium so many times as far away as the first step has it is another one: something has snapped.
+  bool is_far() const { return moved_.norm() > 4 * first_; }
+
+ private:
+  const StaticModel& model_;
+  Vector at_start_;
+  Real tolerance_;
+  Vector unbalanced_, taken_before_, moved_;
+  Real loads_ = 0, left_ = 0, does_ = 0, first_ = -1;
+};
 
 Factored Newton::factor(Slope slope) {
   const SymmetricMatrix* k = nullptr;
@@ -58,8 +93,21 @@ Factored Newton::factor(Slope slope) {
   }
   const Timer timer(costs_.factor_seconds);
   ++costs_.factors;
-  stale_ = false;
+  served_ = 0;
   return system_.factor(*k, model_.supports());
+}
+
+void Newton::take_factor(const SymmetricMatrix& k, int served) {
+  const Timer timer(costs_.factor_seconds);
+  served_ = system_.factor(k, model_.supports()).whole ? served : no_factor;
+}
+
+bool Newton::renew(Slope slope, NewtonResult& result) {
+  const Factored factored = factor(slope);
+  if (result.iterations == 1 && slope == Slope::consistent) result.negative = std::max(factored.negative, 0);
+  if (factored.weakest >= 0) result.weakest = factored.weakest;  // where nothing asks for it, it stays
+  if (!factored.whole) result.reason = Reason::singular;
+  return factored.whole;
 }
 
 bool Newton::solve(const Vector& forces, const Lacking& lacking, Vector& du) {
@@ -73,61 +121,72 @@ const Vector& Newton::forces() {
   return model_.forces();
 }
 
+// A step that goes beyond where the forces along it vanish is shortened to about there, so that bonds that open and close by
+// turns come to rest. Forces are those of an incremental potential, and so it falls.
+void Newton::shorten(Vector& f, Vector& du) {
+  constexpr int most = 8;
+  const auto along = [&](const Vector& there) { return du.dot(model_.supports().unbalanced(there)); };
+  Real low = 0, at_low = along(f), high = 1, part = 1;
+  f = forces();
+  Real at_high = along(f), here = at_high;
+  for (int k = 0; k < most && at_high < 0 && std::abs(here) > 0.5 * std::abs(at_low); ++k) {
+    const Real share = std::clamp(at_low / (at_low - at_high), 0.1, 0.9);
+    const Real next = low + share * (high - low);
+    model_.move((next - part) * du);
+    part = next;
+    f = forces();
+    here = along(f);
+    (here < 0 ? high : low) = part;
+    (here < 0 ? at_high : at_low) = here;
+  }
+  du *= part;
+}
+
 NewtonResult Newton::go(Real time, Manner manner) {
   const bool careful = manner == Manner::careful, quick = manner == Manner::quick;
-  const Slope slope = careful ? Slope::secant : limits_.slope;
   const bool goes_on = time != model_.time();  // at one load something breaks, and may go far
   NewtonResult result;
   model_.begin_trial(time);
-  Vector f = forces();
+  Vector f = forces(), du;
   if (!f.allFinite()) return result.reason = Reason::no_number, result;
-  const Vector at_start = f;
-  Vector unbalanced, du, moved = Vector::Zero(f.size());
-  const Real loads = model_.supports().unbalanced(f).norm();
-  Real before = loads, least = -1, first = -1;
-  int growths = 0, with_this_factor = 0;
+  Judge judge(model_, f, limits_.tolerance);
+  Real before = judge.left(), least = -1;
+  int growths = 0;
   Acceleration acceleration;
-  bool forced = !quick || stale_ || !system_.is_factored();
+  bool forced = !quick || served_ == no_factor || served_ >= patience;
 
   for (result.iterations = 1; result.iterations <= (careful ? 8 : 1) * limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
-    if (forced) {
-      const Factored factored = factor(slope);
-      forced = false;
-      with_this_factor = 0;
-      acceleration.forget();
-      if (factored.weakest >= 0) result.weakest = factored.weakest;  // where nothing asks for it, it stays
-      if (!factored.whole) return result.reason = Reason::singular, result;
+    if (forced && !renew(careful ? Slope::secant : limits_.slope, result)) return result;
+    if (forced) acceleration.forget();
+    const Lacking lacking = model_.lacking();
+    if (!solve(f, lacking, du)) return result.reason = Reason::linear_solver, result;
+    const bool searches = !quick && result.iterations > 1;  // what is prescribed has moved in the first
+    if (searches && !careful &&
+        du.dot(model_.supports().unbalanced(f)) < 0) {  // uphill: not stable there, and the secant one knows the way
+      if (!renew(Slope::secant, result)) return result;
+      if (!solve(f, lacking, du)) return result.reason = Reason::linear_solver, result;
     }
-    if (!solve(f, model_.lacking(), du)) return result.reason = Reason::linear_solver, result;
     if (quick) du = acceleration.step(du);
     if (!du.allFinite()) return result.reason = Reason::no_number, result;
     model_.move(du);
-    moved += du;
-    f = forces();
+    if (searches)
+      shorten(f, du);
+    else
+      f = forces();
     if (!f.allFinite()) return result.reason = Reason::no_number, result;
 
-    unbalanced = model_.supports().unbalanced(f);
-    const Real left = unbalanced.norm();
-    result.reference = what_it_does(f, unbalanced, at_start, loads);
-    const Real energy_reference = std::abs(at_start.dot(moved)) + std::abs((f - unbalanced).dot(moved));
-    const Real floor = model_.noise();
-    result.residual = left > floor ? left / result.reference : 0;
-    const bool balanced = left <= limits_.tolerance * result.reference + floor;
-    const bool still = du.norm() <= limits_.tolerance * moved.norm();
-    const bool spent = std::abs(unbalanced.dot(du)) <= limits_.tolerance * energy_reference;
-    if (first < 0) first = du.norm();
-    if (balanced && ((still && spent) || left <= 1e-3 * limits_.tolerance * result.reference + floor)) {
-      if (goes_on && moved.norm() > far * first) result.reason = Reason::far_away;
-      return result;
-    }
+    const bool found = judge.finds(f, du);
+    judge.tell(result);
+    if (found && goes_on && judge.is_far()) return result.reason = Reason::far_away, result;
+    if (found) return result;
 
-    if (quick && result.iterations > 1 && left > before && left > 10 * floor && ++growths >= 4)
+    const Real left = judge.left();
+    if (quick && result.iterations > 1 && left > before && left > 10 * judge.floor() && ++growths >= 4)
       return result.reason = Reason::grows, result;
-    if (careful && goes_on && moved.norm() > far * first) return result.reason = Reason::far_away, result;
+    if (careful && goes_on && judge.is_far()) return result.reason = Reason::far_away, result;
     if (least < 0 || left < least) least = left;
-    forced =
-        !quick || ++with_this_factor >= patience || left > slow * std::max(least, limits_.tolerance * result.reference);
+    forced = !quick || ++served_ >= patience || left > slow * std::max(least, judge.allowed() - judge.floor());
     before = left;
   }
   --result.iterations;
@@ -139,12 +198,10 @@ NewtonResult Newton::go(Real time, Manner manner) {
 NewtonResult Newton::go_by(const Vector& gradient, Real value) {
   NewtonResult result;
   Vector f = forces();
-  const Vector at_start = f;
+  Judge judge(model_, f, limits_.tolerance);
   for (result.iterations = 1; result.iterations <= limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
-    const Factored factored = factor(limits_.slope);
-    if (factored.weakest >= 0) result.weakest = factored.weakest;
-    if (!factored.whole) return result.reason = Reason::singular, result;
+    if (!renew(limits_.slope, result)) return result;
     Vector du, per_second;
     if (!solve(f, model_.lacking(), du) || !solve(model_.force_rates(), model_.support_rates(), per_second))
       return result.reason = Reason::linear_solver, result;
@@ -156,14 +213,9 @@ NewtonResult Newton::go_by(const Vector& gradient, Real value) {
     model_.move(du);
     f = forces();
     if (!f.allFinite()) return result.reason = Reason::no_number, result;
-    const Vector unbalanced = model_.supports().unbalanced(f);
-    result.reference = what_it_does(f, unbalanced, at_start, 0);
-    const Real floor = model_.noise();
-    result.residual = unbalanced.norm() > floor ? unbalanced.norm() / result.reference : 0;
-    const bool still = du.norm() <= limits_.tolerance * model_.moved().norm();
-    if (unbalanced.norm() <= limits_.tolerance * result.reference + floor &&
-        (still || unbalanced.norm() <= 1e-3 * limits_.tolerance * result.reference + floor))
-      return result;
+    const bool found = judge.finds(f, du);
+    judge.tell(result);
+    if (found) return result;
   }
   --result.iterations;
   return result.reason = Reason::too_many_iterations, result;

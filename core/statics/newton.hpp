@@ -24,6 +24,7 @@ struct NewtonResult {
   int iterations = 0;
   Real residual = 0;   ///< what is unbalanced, over what the increment does
   Real reference = 0;  ///< what the increment does [N]
+  int negative = 0;    ///< negative pivots at the last accepted state, where it was factored
   int weakest = -1;    ///< unknown that nothing holds, of a singular system
   bool converged() const { return reason == Reason::converged; }
 };
@@ -49,13 +50,20 @@ class Newton {
   /// The equilibrium at which `gradient` times what has moved since the last accepted state is `value`: loads go as far
   /// as that takes, backwards too.
   NewtonResult go_by(const Vector& gradient, Real value);
-  /// The factor is of a state before, which may be too far away: the next iteration finds its own.
-  void forget_factor() { stale_ = true; }
+  /// The stiffness that is kept is of a state too far away: the next iteration finds its own.
+  void forget_factor() { served_ = no_factor; }
+  /// Iterations that the kept stiffness has served; `no_factor`: there is none.
+  int served() const { return served_; }
+  static constexpr int no_factor = -1;
+  /// Goes on with the stiffness that a run before kept, as if it were its own.
+  void take_factor(const SymmetricMatrix& k, int served);
   const NewtonCosts& costs() const { return costs_; }
 
  private:
-  Real what_it_does(const Vector& f, const Vector& unbalanced, const Vector& at_start, Real loads) const;
+  class Judge;
   Factored factor(Slope slope);
+  bool renew(Slope slope, NewtonResult& result);
+  void shorten(Vector& f, Vector& du);
   bool solve(const Vector& forces, const Lacking& lacking, Vector& du);
   const Vector& forces();
 
@@ -63,7 +71,7 @@ class Newton {
   SupportedSystem& system_;
   NewtonLimits limits_;
   NewtonCosts costs_;
-  bool stale_ = true;
+  int served_ = no_factor;
 };
 
 }  // namespace beadwork

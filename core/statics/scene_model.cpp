@@ -130,24 +130,34 @@ Real SceneModel::work_on_the_way() {
 
 std::optional<Vector> SceneModel::opening(const std::string& family, bool softening_only) const {
   Vector gradient = Vector::Zero(per_element() * count_);
-  const Real last = w_.moment().time_step;
   Real sum = 0;
   for (const auto& [law, table] : w_.laws()) {
     if (law->family() != family) continue;
     for (const Chunk& chunk : table->chunks())
-      for (Index b = chunk.begin; b < chunk.live_end; ++b) {
-        if (softening_only && table->state()[b] != State::softening) continue;
-        const Index i = table->first()[b], j = table->second()[b];
-        const Vec3 apart = rows_.place[j] - rows_.place[i], n = apart / apart.norm();
-        const Real weight = last * n.dot(Vec3(rows_.velocity[j] - rows_.velocity[i]));
-        if (!(weight > 0)) continue;
-        sum += weight;
-        gradient.segment<3>(unknown(j, 0)) += weight * n;
-        gradient.segment<3>(unknown(i, 0)) -= weight * n;
-      }
+      for (Index b = chunk.begin; b < chunk.live_end; ++b)
+        if (!softening_only || table->state()[b] == State::softening)
+          sum += add_opening(table->first()[b], table->second()[b], gradient);
   }
   if (!(sum > 0)) return std::nullopt;
   return gradient / sum;
+}
+
+// What two elements have moved against each other, where they touch, in the last step; closing does not count.
+Real SceneModel::add_opening(Index i, Index j, Vector& gradient) const {
+  const Real last = w_.moment().time_step;
+  const Vec3 apart = rows_.place[j] - rows_.place[i], n = apart / apart.norm();
+  const Real sizes = rows_.radius[i] + rows_.radius[j];
+  const Vec3 arm1 = (sizes > 0 ? rows_.radius[i] / sizes : 0.5) * apart, arm2 = arm1 - apart;
+  Vec3 moved = last * (rows_.velocity[j] - rows_.velocity[i]);
+  if (turning()) moved += last * (rows_.spin[j].cross(arm2) - rows_.spin[i].cross(arm1));
+  moved -= std::min<Real>(0, n.dot(moved)) * n;
+  gradient.segment<3>(unknown(j, 0)) += moved;
+  gradient.segment<3>(unknown(i, 0)) -= moved;
+  if (turning()) {
+    gradient.segment<3>(unknown(j, 3)) += arm2.cross(moved) / length_;
+    gradient.segment<3>(unknown(i, 3)) -= arm1.cross(moved) / length_;
+  }
+  return moved.norm();
 }
 
 // Places are known to the last digit of the largest of them, and so are elongations; energies of turns are small
@@ -191,11 +201,14 @@ std::vector<const BondTable*> SceneModel::tables() const {
   return tables;
 }
 
-// All that there are, broken or not: so that the order of elimination does not depend on what has broken when.
+// All that there are, broken or not, in an order of their own: so that the order of elimination does not depend on what has
+// broken when.
 std::vector<std::pair<Index, Index>> SceneModel::pairs() const {
   std::vector<std::pair<Index, Index>> all;
   for (const BondTable* table : tables())
     for (Index b = 0; b < table->size(); ++b) all.emplace_back(std::minmax(table->first()[b], table->second()[b]));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

@@ -54,8 +54,8 @@ class SceneModel final : public StaticModel {
   void support_as_before();
   /// Work that the forces do from the last accepted state to the trial state, at the present loads [J].
   Real work_on_the_way();
-  /// The mean opening of the bonds of a family that soften, or of all, each with the weight of what it has opened in the
-  /// last step, as a product with what elements move. Nothing if there is no such bond.
+  /// By how much the bonds of a family that soften, or all, open or slide as they did in the last step: the mean, each with
+  /// the weight of what it moved then, as a product with what elements move. Nothing if there is no such bond.
   std::optional<Vector> opening(const std::string& family, bool softening_only) const;
   /// Elements that nothing binds, which are held where they are.
   Index loose() const { return loose_; }
@@ -63,6 +63,7 @@ class SceneModel final : public StaticModel {
   bool has_other_pairs() const;
   /// The stiffness to be, with the pattern that these give it.
   const SymmetricMatrix& take_pairs();
+  const SymmetricMatrix& pattern() const { return stiffness_.matrix(); }
   Index unknowns() const { return per_element() * count_; }
   Index element_of(int unknown) const { return unknown / per_element(); }
   /// In words, what an unknown is: "along x", "about z".
@@ -73,6 +74,7 @@ class SceneModel final : public StaticModel {
   bool turning() const { return static_cast<bool>(rows_.torque); }
   int unknown(Index element, int axis) const { return per_element() * element + axis; }
   Real unit(int axis) const { return axis < 3 ? 1 : length_; }
+  Real add_opening(Index first, Index second, Vector& gradient) const;
   void note_accepted();
   void begin_support(const std::vector<Index>& body);
   void fix_prescribed();

@@ -9,10 +9,8 @@ namespace beadwork {
 
 using Block = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-StiffnessMatrix::StiffnessMatrix(Index elements, std::vector<std::pair<Index, Index>> pairs, Real length)
+StiffnessMatrix::StiffnessMatrix(Index elements, const std::vector<std::pair<Index, Index>>& pairs, Real length)
     : per_element_(length > 0 ? 6 : 3), length_(length) {
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   begin_.assign(static_cast<std::size_t>(elements) + 1, 0);
   for (const auto& [first, second] : pairs) {
     ++begin_[static_cast<std::size_t>(first) + 1];

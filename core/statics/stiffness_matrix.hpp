@@ -13,9 +13,9 @@ namespace beadwork {
 class StiffnessMatrix {
  public:
   StiffnessMatrix() = default;
-  /// With room for the stiffness between these pairs of elements, first < second; each may be named more than once.
+  /// With room for the stiffness between these pairs of elements, first < second, ascending, each named once.
   /// `length`: that of the unknown of a turn of 1 rad; 0 where elements do not turn [m].
-  StiffnessMatrix(Index elements, std::vector<std::pair<Index, Index>> pairs, Real length);
+  StiffnessMatrix(Index elements, const std::vector<std::pair<Index, Index>>& pairs, Real length);
 
   int per_element() const { return per_element_; }
   void clear();

@@ -8,7 +8,6 @@ namespace beadwork {
 using Eigen::MatrixXd;
 
 Real SupportedSystem::analyse(const SymmetricMatrix& pattern) {
-  factored_ = false;
   solver_->analyse(pattern);
   // the factor, and K as it is, as it is reduced and as it is put together, with its rows
   return solver_->memory() + 3 * static_cast<Real>(pattern.value.size()) * (sizeof(Real) + sizeof(int));
@@ -33,8 +32,7 @@ Factored SupportedSystem::factor(const SymmetricMatrix& k, const Supports& suppo
   for (const Supports::Mean& mean : supports.means)
     free_.value[static_cast<std::size_t>(free_.begin[static_cast<std::size_t>(mean.pinned)])] += spring_;
   const Factored result = solver_->factor(free_);
-  factored_ = result.whole;
-  if (factored_) border();
+  if (result.whole) border();
   return result;
 }
 

@@ -19,7 +19,8 @@ class SupportedSystem {
   Real analyse(const SymmetricMatrix& pattern);
   /// Factors K, of that pattern, where it is free.
   Factored factor(const SymmetricMatrix& k, const Supports& supports);
-  bool is_factored() const { return factored_; }
+  /// What was factored last.
+  const SymmetricMatrix& stiffness() const { return whole_; }
   /// du with K du + C^T lambda = f where it is free, du and C du as lacking. False where an iteration does not end.
   bool solve(const Vector& f, const Lacking& lacking, Vector& du);
 
@@ -29,7 +30,6 @@ class SupportedSystem {
   void multiply(const Vector& x, Vector& y) const;
 
   std::unique_ptr<LinearSolver> solver_;
-  bool factored_ = false;
   Supports supports_;
   SymmetricMatrix whole_, free_;  ///< K, and K with ones in the place of what is fixed
   Real spring_ = 0;               ///< of the pins of means [N/m]

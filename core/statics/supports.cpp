@@ -1,8 +1,18 @@
 #include "core/statics/supports.hpp"
 
 #include <Eigen/LU>
+#include <boost/container_hash/hash.hpp>
 
 namespace beadwork {
+
+Real Supports::sign() const {
+  std::size_t sign = boost::hash_range(fixed.begin(), fixed.end());
+  for (const Mean& mean : means) {
+    boost::hash_range(sign, mean.unknowns.begin(), mean.unknowns.end());
+    boost::hash_combine(sign, mean.pinned);
+  }
+  return static_cast<Real>(sign >> 12);
+}
 
 Real Supports::mean_of(const Mean& mean, const Vector& x) {
   Real sum = 0;

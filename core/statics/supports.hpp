@@ -16,6 +16,8 @@ struct Supports {
   std::vector<Mean> means;
 
   bool is_fixed(int unknown) const { return fixed[static_cast<std::size_t>(unknown)] != 0; }
+  /// The same for the same supports, and hardly for others; of 52 bits, which a number of a checkpoint holds.
+  Real sign() const;
   /// C x: the mean of all its unknowns.
   static Real mean_of(const Mean& mean, const Vector& x);
   /// x + C^T value, where it is free.

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "core/base/failure.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/beam.hpp"
@@ -107,6 +109,14 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
   Param<Real> radius_ratio{
       this,
       {.name = "radius-ratio", .range = positive, .doc = "Radius of a beam over the mean radius of its two elements"}};
+  Param<std::string> radius_of{
+      this,
+      {.name = "radius-of",
+       .doc =
+           "Whose mean radius that is: of the two elements of a beam, or of all elements that are bonded, so that all "
+           "beams have one section",
+       .fallback = "pair",
+       .choices = {"pair", "family"}}};
 
   Reads<Real> radius{this, field::radius};
   Keeps<Vec3> axis{this,
@@ -132,10 +142,11 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
 
   void connect(Domain& domain, BondTable& table) override {
     note_turned(domain, table);
+    const Real of_family = *radius_of == "family" ? mean_radius(table) : 0;
     for (Index row = 0; row < table.size(); ++row) {
       const Index i = table.first()[row];
       const Index j = table.second()[row];
-      const Real r = *radius_ratio * 0.5 * (radius[i] + radius[j]);
+      const Real r = *radius_ratio * (of_family > 0 ? of_family : 0.5 * (radius[i] + radius[j]));
       const Vec3 apart = position[j] - position[i];
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
         refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a beam between them has no "
@@ -156,6 +167,14 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
   }
 
  private:
+  // Of the elements that are bonded, each counted once.
+  Real mean_radius(const BondTable& table) const {
+    std::set<Index> bonded;
+    for (Index row = 0; row < table.size(); ++row) bonded.insert({table.first()[row], table.second()[row]});
+    Real sum = 0;
+    for (const Index element : bonded) sum += radius[element];
+    return bonded.empty() ? 0 : sum / static_cast<Real>(bonded.size());
+  }
   void note_turned(Domain& domain, BondTable& table) {
     bool turned = false;
     for (Index row = 0; row < table.size(); ++row)

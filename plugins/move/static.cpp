@@ -11,6 +11,7 @@
 #include "core/plugin/kinds.hpp"
 #include "core/statics/event.hpp"
 #include "core/statics/increments.hpp"
+#include "core/statics/kept_stiffness.hpp"
 #include "core/statics/newton.hpp"
 #include "core/statics/scene_model.hpp"
 
@@ -114,6 +115,11 @@ class Static final : public Mover {
   Keeps<Real> noise{this,
                     {"force-noise", On::scene, "N", "Round-off of forces, by the stiffness when the stage began"}};
   Keeps<Real> energy_noise{this, {"energy-noise", On::scene, "J", "Round-off of energies, likewise"}};
+  Keeps<Real> served{
+      this, {"factor-served", On::scene, "1", "Iterations that the kept stiffness has served; -1: there is none"}};
+  Keeps<Real> factored_for{
+      this, {"factor-supports", On::scene, "1", "Sign of the supports that the kept stiffness was factored with"}};
+  Keeps<Real> negative{this, {"negative-pivots", On::scene, "1", "Most negative pivots of an equilibrium so far"}};
   Keeps<Real> spent{this, {"iterations", On::scene, "1", "Iterations so far"}};
   Keeps<Real> cuts{this, {"cuts", On::scene, "1", "Increments that were cut so far"}};
   Keeps<Real> carefully{this, {"carefully", On::scene, "1", "Increments that were tried with a new secant each time"}};
@@ -149,6 +155,7 @@ class Static final : public Mover {
                                  orientation.view(), spin.view(), torque.view(), radius.view(), held.view()});
     system_.emplace(linear_solver(*solver));
     newton_.emplace(*model_, *system_, limits);
+    kept_.emplace(w.domain(), KeptStiffness::Rows{served.view(), factored_for.view()});
     const Real memory = analyse();
     seen_breaks_ =
         static_cast<std::size_t>(std::count_if(w.domain().breaks().breaks.begin(), w.domain().breaks().breaks.end(),
@@ -159,7 +166,11 @@ class Static final : public Mover {
     }
     model_->take_noise(noise[0]);
     w.next_moment(w.moment().time);  // from now on moments are met exactly
-    if (resumed) return model_->support_as_before();
+    if (resumed) {
+      model_->support_as_before();
+      return kept_->resume(*newton_, model_->pattern(), model_->supports());
+    }
+    kept_->begin(model_->pattern());
     hold(w);
     share[0] = 1, used[0] = 0, does[0] = 0;
     stand_still(w);
@@ -175,13 +186,13 @@ class Static final : public Mover {
   void step(Workings& w) override {
     heed_changes(w);
     ++w.moment().step;
-    newton_->forget_factor();  // so that a run that is resumed finds the same bits
     const bool begins = w.moment().step == w.moment().stage_step + 1;
     if ((broke_ || begins) && is_out_of_balance())
       settle(w);
     else
       advance(w);
     model_->accept();
+    kept_->note(*newton_, *system_, model_->supports());
   }
 
   void energy(EnergySink& sink) const override {
@@ -198,6 +209,7 @@ class Static final : public Mover {
             {"careful_increments", carefully[0]},
             {"events", events[0]},
             {"worst_residual", worst[0]},
+            {"negative_pivots", negative[0]},
             {"factors", static_cast<Real>(costs.factors)},
             {"factor_seconds", costs.factor_seconds},
             {"stiffness_seconds", costs.stiffness_seconds},
@@ -216,6 +228,7 @@ class Static final : public Mover {
 
   // Before a factor is allocated it is known how large it will be.
   Real analyse() {
+    newton_->forget_factor();
     const Real memory = system_->analyse(model_->take_pairs());
     if (memory > memory_at_most())
       refuse(at(),
@@ -253,6 +266,7 @@ class Static final : public Mover {
     const bool meets = model_->has_other_pairs();
     if (meets) analyse();
     if (broke_ || meets) hold(w);  // what was loose may touch something now
+    kept_->heed(*newton_, model_->supports());
   }
 
   // What broke pulls at the supports no more. Contacts that have opened by themselves leave nothing out of balance; what a
@@ -335,9 +349,18 @@ class Static final : public Mover {
       if (manner != Manner::quick) model_->give_up(), w.moment().time_step = to - w.moment().time;
       result = newton_->go(to, manner);
       spent[0] += result.iterations;
+      const bool done = result.converged() || result.reason == Reason::singular;
       if (manner == Manner::careful) carefully[0] += 1;
-      if (result.converged() || result.reason == Reason::singular) break;
-      newton_->forget_factor();
+      if (!done || manner == Manner::careful) newton_->forget_factor();  // the secant one is none to go on with
+      if (done) break;
+    }
+    if (result.negative > 0) {
+      negative[0] = std::max(negative[0], static_cast<Real>(result.negative));
+      w.log().say_once(
+          "unstable", fmt::format("step {}: {} pivots of the stiffness are negative at the last equilibrium: it is not "
+                                  "stable, or a snap or a bifurcation lies near; which way a real body takes, its "
+                                  "imperfections decide",
+                                  w.moment().step, result.negative));
     }
     if (result.converged() && result.weakest >= 0)
       w.log().say_once("mechanism",
@@ -401,6 +424,7 @@ class Static final : public Mover {
   std::optional<SceneModel> model_;
   std::optional<SupportedSystem> system_;
   std::optional<Newton> newton_;
+  std::optional<KeptStiffness> kept_;
   std::size_t seen_breaks_ = 0;
   bool broke_ = false;
 };

@@ -19,6 +19,9 @@ std::string quality_badge(const Run&);
 std::string packing(const Run&);
 std::string deck_and_log(const Run&);
 
+/// Of `law`: its result, a table for each family with the curves of this one, which are taken out of the run.
+std::string laws(Run&, const Json& result);
+
 /// The curves of one name of several runs, laid over one another in a chart for each unit. Each run has its label.
 std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of_runs);
 

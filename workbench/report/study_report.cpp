@@ -25,16 +25,19 @@ std::string tests_of(Json& result) {
 }
 
 std::string study_page(const std::filesystem::path& folder) {
-  const Run study = open_curves(folder);
+  Run study = open_curves(folder);
   Json result = study.summary.contains("result") ? study.summary["result"] : Json::object();
   const std::string title = escaped(study.scene.empty() ? name_of_folder(folder) : study.scene);
   const std::string kind = escaped(text_of(study.summary, "study", "study"));
   std::string notes;
   if (study.status != "done")
     notes = section("How it ended", "<p>" + escaped(text_of(study.summary, "exit_reason")) + "</p>");
-  const std::string tests = tests_of(result);
-  return page_with(title + " – Beadwork", "<h1>" + title + "</h1><p>" + kind + " " + badge(study.status) + "</p>",
-                   notes + tests + section("Result", result.empty() ? "" : facts_table(result)) + curves(study, {}));
+  const std::string tests = kind == "law" ? "" : tests_of(result);
+  return page_with(
+      title + " – Beadwork", "<h1>" + title + "</h1><p>" + kind + " " + badge(study.status) + "</p>",
+      notes + tests +
+          (kind == "law" ? laws(study, result)
+                         : section("Result", result.empty() ? "" : facts_table(result)) + curves(study, {})));
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#include "workbench/office.hpp"
+
+#include <fmt/format.h>
+
+#include "core/io/file.hpp"
+#include "core/loop/json_text.hpp"
+#include "core/loop/summary.hpp"
+#include "core/version.hpp"
+
+namespace beadwork {
+
+namespace fs = std::filesystem;
+
+Office::Office(const fs::path& out, const Scene& scene, const std::string& study, Former former)
+    : folder_(out, Manifest::Of::study), summary_{{"name", scene.name},
+                                                  {"study", study},
+                                                  {"status", "running"},
+                                                  {"exit_reason", ""},
+                                                  {"deck_sha256", scene.deck_sha256},
+                                                  {"version", version}} {
+  if (former == Former::removed) folder_.clear();
+  write("resolved.xml", scene.resolved);
+}
+
+fs::path Office::write(const std::string& name, std::string_view text) {
+  const fs::path file = folder_.claim(name);
+  fs::create_directories(file.parent_path());
+  write_atomically(file, text);
+  return file;
+}
+
+void Office::curve(const std::string& name, const CurvePlan& plan, const std::vector<std::vector<Real>>& rows) {
+  std::string text;
+  for (const auto& [column, unit] : plan.columns)
+    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", column, unit);
+  text += "\n";
+  for (const auto& row : rows) text += fmt::format("{}\n", fmt::join(row, ","));
+  write("curves/" + name + ".csv", text);
+  write("curves/" + name + ".json", curve_json(plan));
+}
+
+void Office::close(const std::string& status, ExitCode code, const std::string& reason, const SceneRunner& runner) {
+  summary_["status"] = status;
+  summary_["exit_reason"] = reason;
+  summary_["exit_code"] = static_cast<int>(code);
+  summary_["runs"] = {{"run", runner.runs()}, {"known", runner.known()}};
+  summary_["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  write("summary.json", json_text(summary_, 2) + "\n");
+}
+
+}  // namespace beadwork
