@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct CalibrateArguments {
   DeckArguments deck;
-  std::string out, seeds, elements, density;  // as they stand on the command line
+  std::string out, seeds, elements, density, tests;  // as they stand on the command line
   Words words;
   Shares shares;
 };
@@ -35,6 +35,7 @@ DeckRequest request_of(const CalibrateArguments& arguments) {
   give("seeds", arguments.seeds);
   give("elements", arguments.elements);
   give("density", arguments.density);
+  give("tests", arguments.tests);
   return request;
 }
 
@@ -110,6 +111,8 @@ void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_option("--elements", arguments->elements, "Elements of a sample, in the place of 'elements' of the deck");
   verb->add_option("--density", arguments->density,
                    "Of the material, such as '1200 kg/m^3', in the place of the deck's");
+  verb->add_option("--tests", arguments->tests,
+                   "What the bonds that were found are put to, such as 'compression wave', in the place of the deck's");
   verb->add_option("--jobs", arguments->shares.jobs, "Runs at once; where absent as many as there are processors for")
       ->check(CLI::Range(1, 1024));
   verb->add_option(

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/text.hpp"
@@ -73,6 +74,29 @@ class Calibration final : public Study {
                                                    "<bond-stress> by their measures, and of <virial-stress>",
                                             .fallback = "bbf-axial-bending rdef",
                                             .choices = {"bbf-axial", "bbf-axial-bending", "bbf-principal", "rdef"}}};
+  Param<std::vector<std::string>> tests{
+      this,
+      {.name = "tests",
+       .doc = "What else the bonds that were found are put to, by statics: tension, which is always run, compression, "
+              "bending, torsion; and wave, the speed of a wave along a rod, which takes longer",
+       .fallback = "tension compression bending torsion",
+       .choices = {"tension", "compression", "bending", "torsion", "wave"}}};
+  Param<std::string> tested{
+      this,
+      {.name = "tested", .doc = "Samples that are put to 'tests'", .fallback = "first", .choices = {"first", "all"}}};
+  Param<std::int64_t> rod_elements{this,
+                                   {.name = "rod-elements",
+                                    .range = {1},
+                                    .doc = "Of the rod of the test wave; where absent as many as a sample has, and no "
+                                           "fewer than make it 8 across",
+                                    .optional = true}};
+  Param<Real> slenderness{
+      this,
+      {.name = "slenderness",
+       .range = {4, 50},
+       .doc = "How often that rod is as long as it is wide: the front of the wave is as long as 0.4 "
+              "of it, and a rod is to be thin to its waves",
+       .fallback = "24"}};
   Param<std::string> by{
       this,
       {.name = "by",
@@ -93,6 +117,7 @@ class Calibration final : public Study {
     if (name.given() && !is_plain_name(*name))
       complaints.error(name.at(), fmt::format("'name' wants {}, got \"{}\"", plain_name, *name));
     check_size(complaints);
+    check_rod(complaints);
     if (!ratios.given()) return;
     if (ratios->size() < 2) complaints.error(ratios.at(), "'radius-ratios' wants two radius ratios at least");
     for (const auto& row : *ratios)
@@ -104,29 +129,51 @@ class Calibration final : public Study {
   void conduct(const StudyDesk& desk) override {
     const calibration::Plan plan = this->plan();
     const calibration::Found found = calibration::Work(plan, desk, poisson.at()).all();
-    write_curves(plan, found, desk);
+    write_curves(found, desk);
     desk.result(result_json(plan, found));
     const auto file = desk.write(*name + ".calibration.xml", calibration::parameters(plan, found, desk.provenance));
     desk.log.say(fmt::format("written: {}", file.string()));
   }
 
  private:
-  static constexpr Real fewest_across_ = 6, density_ = 0.64;
+  static constexpr Real fewest_across_ = 6;
 
-  /// Elements across a box or the diameter of a cylinder.
-  Real across(Real count) const {
-    return *shape == "box" ? std::cbrt(count * std::numbers::pi / 6 / density_) : std::cbrt(count / (3 * density_));
+  Real slender() const { return calibration::slenderness(*shape == "cylinder"); }
+
+  /// Elements across a box or a cylinder that is so many times as long as it is wide.
+  Real across(std::int64_t count, Real times) const {
+    return calibration::width_of(*shape == "cylinder", count, times) / 2e-3;
   }
+  /// How many elements make it so wide.
+  std::int64_t elements_for(Real wanted, Real times) const {
+    const Real of_one = across(1, times);
+    return static_cast<std::int64_t>(std::ceil(std::pow(wanted / of_one, 3) - 1e-6));
+  }
+  std::int64_t elements_of_rod() const {
+    constexpr Real usual = 8;
+    return rod_elements.given() ? *rod_elements : std::max(*elements, elements_for(usual, *slenderness));
+  }
+  bool tests_waves() const { return std::find(tests->begin(), tests->end(), "wave") != tests->end(); }
 
   void check_size(Complaints& complaints) const {
-    if (!elements.given() || !shape.given() || across(static_cast<Real>(*elements)) >= fewest_across_) return;
-    const Real cube = fewest_across_ * fewest_across_ * fewest_across_;
-    const Real fewest = *shape == "box" ? cube * 6 * density_ / std::numbers::pi : cube * 3 * density_;
+    if (!elements.given() || !shape.given() || across(*elements, slender()) >= fewest_across_) return;
     complaints.error(
         elements.at(),
         fmt::format("{} elements are {:.1f} across the {}, of which the walls spoil the outer ones: {} are "
-                    "wanted at least, which are {:.0f} elements; 5000 are a good start",
-                    *elements, across(static_cast<Real>(*elements)), *shape, fewest_across_, std::ceil(fewest)));
+                    "wanted at least, which are {} elements; 5000 are a good start",
+                    *elements, across(*elements, slender()), *shape, fewest_across_,
+                    elements_for(fewest_across_, slender())));
+  }
+
+  void check_rod(Complaints& complaints) const {
+    if (!tests_waves() || !rod_elements.given() || !slenderness.given() || !shape.given() ||
+        across(*rod_elements, *slenderness) >= fewest_across_)
+      return;
+    complaints.error(rod_elements.at(),
+                     fmt::format("{} elements are {:.1f} across a rod that is {} times as long as it is wide: {} are "
+                                 "wanted at least, which are {} elements; or a smaller 'slenderness'",
+                                 *rod_elements, across(*rod_elements, *slenderness), format_number(*slenderness),
+                                 fewest_across_, elements_for(fewest_across_, *slenderness)));
   }
 
   calibration::Plan plan() const {
@@ -140,6 +187,10 @@ class Calibration final : public Study {
     plan.bond_poisson = *bond_poisson;
     plan.through_centres = *section == "centres";
     plan.criteria = *criteria;
+    plan.tests = {tests->begin(), tests->end()};
+    plan.all_are_tested = *tested == "all";
+    plan.rod_elements = elements_of_rod();
+    plan.slenderness = *slenderness;
     return plan;
   }
 };

@@ -1,8 +1,11 @@
 #pragma once
 // What a calibration is to find, and what it has found so far.
 
+#include <array>
+#include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,10 @@ struct Plan {
   Real bond_poisson;
   bool through_centres;  ///< of the section that the force is taken over: it ends at the centres of the outer elements
   std::vector<std::string> criteria;  ///< "bbf-axial-bending", "rdef"
+  std::set<std::string> tests;        ///< "compression", "bending", "torsion", "wave"
+  bool all_are_tested;                ///< all samples, or the first alone
+  std::int64_t rod_elements;          ///< of the rod that waves run along
+  Real slenderness;                   ///< of it: how often it is as long as it is wide
 };
 
 /// A sample's packing.
@@ -43,6 +50,7 @@ struct Elastic {
   Real centres, box;  ///< E from the reaction over the section to the outer centres, or over that of the box
   Real virial;        ///< E from stress and strain in the core
   Real sideways;      ///< lateral stress of the core over that along the axis: 0 if the sides are free
+  Real carrying;      ///< force over the stress of the core: the section that carries [m^2]
 };
 
 /// By radius ratio, of one sample.
@@ -59,6 +67,31 @@ struct Strength {
   std::string trouble = {};          ///< why there is none
 };
 
+/// Young's modulus, or of torsion the shear modulus, by one test [Pa].
+struct Modulus {
+  Real section = std::numeric_limits<Real>::quiet_NaN();  ///< over that of the plan
+  Real carrying =
+      std::numeric_limits<Real>::quiet_NaN();  ///< over that which carries: the force over the core's stress
+};
+
+/// A rod that waves run along, and what one told.
+struct Rod {
+  Modulus still, wave;  ///< E by statics, and by the wave
+  Real speed = std::numeric_limits<Real>::quiet_NaN();
+  Real density = std::numeric_limits<Real>::quiet_NaN();  ///< mass over volume, where elements have 1000 kg/m^3
+  Real bound = std::numeric_limits<Real>::quiet_NaN();    ///< share of its elements that bonds hold: the others stay
+};
+
+/// What the tests say of one sample.
+struct Tested {
+  std::int64_t seed;
+  std::map<std::string, Modulus> moduli = {};  ///< by test
+  Real poisson = std::numeric_limits<Real>::quiet_NaN();
+  Real virial = std::numeric_limits<Real>::quiet_NaN();     ///< E from stress and strain in the core [Pa]
+  Real from_ends = std::numeric_limits<Real>::quiet_NaN();  ///< E of bending by the turn of the ends [Pa]
+  std::optional<Rod> rod = {};
+};
+
 /// What goes into the file of parameters.
 struct Found {
   std::vector<Packed> packings;
@@ -68,6 +101,8 @@ struct Found {
   std::vector<Elastic> elastic;                       ///< of each sample at `ratio`, along the first axis
   std::map<std::string, std::vector<Elastic>> along;  ///< by axis
   Real young = 0;                                     ///< of the bonds [Pa]
+  std::vector<std::array<Real, 2>> line;              ///< E of the bonds and of the first sample [Pa]
+  std::vector<Tested> tested;
   std::vector<Strength> strengths;
 };
 

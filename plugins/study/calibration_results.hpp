@@ -1,44 +1,13 @@
 #pragma once
 // What a calibration leaves: the file of parameters, curves, and figures for summary.json.
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <cmath>
 #include <set>
 
-#include "core/base/text.hpp"
 #include "core/mechanics/bonded_packing.hpp"
 #include "core/plugin/study.hpp"
-#include "plugins/study/samples.hpp"
+#include "plugins/study/test_results.hpp"
 
 namespace beadwork::calibration {
-
-template <class T>
-std::vector<Real> each(const std::vector<T>& all, Real T::*member) {
-  std::vector<Real> values;
-  for (const T& one : all) values.push_back(one.*member);
-  return values;
-}
-
-/// "0.372 +- 0.004"
-inline std::string spread_text(const std::vector<Real>& values, int digits = 4) {
-  if (values.empty()) return "not found";
-  const Scatter spread = scatter_of(values);
-  if (values.size() < 2) return fmt::format("{:.{}g}", spread.mean, digits);
-  return fmt::format("{:.{}g} +- {:.1g}", spread.mean, digits, spread.deviation);
-}
-
-/// In MPa.
-inline std::string stress_text(std::vector<Real> values) {
-  for (Real& value : values) value *= 1e-6;
-  return spread_text(values) + " MPa";
-}
-
-inline Real modulus_of(const Plan& plan, const Elastic& e) { return plan.through_centres ? e.centres : e.box; }
-inline std::vector<Real> moduli_of(const Plan& plan, const std::vector<Elastic>& all) {
-  return each(all, plan.through_centres ? &Elastic::centres : &Elastic::box);
-}
 
 /// "bbf-strength" of the criterion "bbf-axial-bending", which <bond-stress> takes where it is told nothing.
 inline std::string parameter_of(const std::string& criterion) {
@@ -66,6 +35,7 @@ inline std::string parameters(const Plan& plan, const Found& found, const std::s
       spread_text(each(found.packings, &Packed::coordination_bulk)),
       spread_text(each(found.packings, &Packed::density_bulk)),
       plan.through_centres ? "through the centres of the outer elements" : "of the whole sample");
+  text += tests_remark(plan, found.tested);
   text += parameter_line(name + "radius-ratio", format_number(found.ratio),
                          "samples by themselves: " + spread_text(found.ratios));
   std::vector<Real> young;
@@ -87,7 +57,7 @@ inline std::string parameters(const Plan& plan, const Found& found, const std::s
 }
 
 /// nu_M and E_M/E_mu over the radius ratio: means, each sample, and the closed form.
-inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& desk) {
+inline void write_curves(const Found& found, const StudyDesk& desk) {
   CurvePlan poisson{.columns = {{"radius-ratio", "1"}, {"poisson", "1"}, {"deviation", "1"}},
                     .title = "Poisson's ratio of the solid",
                     .x = "radius-ratio",
@@ -122,19 +92,22 @@ inline void write_curves(const Plan& plan, const Found& found, const StudyDesk& 
   }
   desk.curve("poisson", poisson, poisson_rows);
   desk.curve("stiffness", stiffness, stiffness_rows);
-  const Real modulus = scatter_of(moduli_of(plan, found.elastic)).mean;
+  std::vector<std::vector<Real>> line;
+  for (const auto& [of_bonds, of_solid] : found.line) line.push_back({of_bonds, of_solid});
   desk.curve("young",
              {.columns = {{"young-of-bonds", "Pa"}, {"young", "Pa"}},
-              .title = "Young's modulus of the solid at the radius ratio that was found",
+              .title = "Young's modulus of the first sample at the radius ratio that was found",
               .x = "young-of-bonds",
               .y = {"young"}},
-             {{0, 0}, {found.young, found.young * modulus}, {1.5 * found.young, 1.5 * found.young * modulus}});
+             line);
 }
 
-inline std::string numbers_json(const std::vector<Real>& values) {
-  const Scatter spread = scatter_of(values);
-  return fmt::format(R"({{"mean":{},"deviation":{},"samples":[{}]}})", format_number(spread.mean),
-                     format_number(spread.deviation), fmt::join(values, ","));
+/// How far the ratio of the two moduli is from that of the first run, at most.
+inline Real off_the_line(const std::vector<std::array<Real, 2>>& line) {
+  Real most = 0;
+  for (const auto& [of_bonds, of_solid] : line)
+    most = std::max(most, std::abs(of_solid / of_bonds * line.front()[0] / line.front()[1] - 1));
+  return most;
 }
 
 inline std::string result_json(const Plan& plan, const Found& found) {
@@ -164,6 +137,8 @@ inline std::string result_json(const Plan& plan, const Found& found) {
     text += s.trouble.empty() ? fmt::format(R"(,"{}":{{"strength":{},"samples":{},"peak":{}}})", s.criterion,
                                             format_number(s.value), numbers_json(s.wanted), numbers_json(s.confirmed))
                               : fmt::format(R"(,"{}":{{"strength":null}})", s.criterion);
+  if (!found.line.empty()) text += fmt::format(R"(,"off_the_line":{})", number_json(off_the_line(found.line)));
+  if (!found.tested.empty()) text += "," + tests_json(plan, found.tested);
   return text + "}";
 }
 

@@ -7,6 +7,8 @@
 
 #include "core/base/failure.hpp"
 #include "plugins/study/calibration_results.hpp"
+#include "plugins/study/mechanical_tests.hpp"
+#include "plugins/study/pulls.hpp"
 #include "plugins/study/strength_tests.hpp"
 
 namespace beadwork::calibration {
@@ -14,25 +16,29 @@ namespace beadwork::calibration {
 class Work {
  public:
   Work(const Plan& plan, const StudyDesk& desk, const Location& poisson_at)
-      : plan_(plan), samples_(plan), desk_(desk), poisson_at_(poisson_at) {}
+      : plan_(plan), pulls_(plan, desk.folder, plan.decks.by), desk_(desk), poisson_at_(poisson_at) {}
 
   Found all() {
     desk_.write("size.xml", size_deck(plan_.decks));
     pack();
     desk_.write("sample.xml", sample_deck(plan_.decks, found_.packings.front().file));
-    elastic_deck_ = desk_.write("elastic.xml", elastic_deck(plan_.decks));
+    desk_.write("pulled.xml", pulled_deck(plan_.decks));
+    desk_.write("elastic.xml", elastic_deck(plan_.decks.by));
     found_.curves.resize(found_.packings.size());
     measure(plan_.ratios);
     find_ratio();
     find_young();
     look_along_other_axes();
+    MechanicalTests tests(plan_, desk_, found_);
+    found_.tested = tests.all();
+    found_.line = tests.line();
+    for (const std::string& line : test_lines(plan_, found_.tested)) desk_.log.say(line);
     if (plan_.material.strength) found_.strengths = StrengthTests(plan_, desk_, found_).all();
     return found_;
   }
 
  private:
-  static constexpr Real strain_ = 1e-4;  // of elastic samples
-  static constexpr Real close_ = 1e-3;   // of Poisson's ratio to the target
+  static constexpr Real close_ = 1e-3;  // of Poisson's ratio to the target
 
   // --- samples ------------------------------------------------------------------------------------------------------
 
@@ -67,60 +73,13 @@ class Work {
 
   // --- elastic ------------------------------------------------------------------------------------------------------
 
-  // Of elastic samples: small, so that they are linear; above what waves leave behind where there is inertia.
-  Real strain() const { return plan_.decks.by == "static" ? 1e-6 : 1e-4; }
-  // Of the sample's waves along its length, with the decks' density.
-  Real transit() const { return samples_.extent() / std::sqrt(plan_.material.young / 640); }
-
   Real guessed_young(const Packed& packing, Real ratio) const {
     const Real guess = stiffness_ratio({packing.coordination_bulk, packing.density_bulk, ratio},
                                        std::min(plan_.material.poisson, Real(0.45)));
     return rounded(plan_.material.young / guess, significant);
   }
 
-  Errand elastic_errand(const Packed& packing, Real ratio, Real young, const std::string& axis) const {
-    Errand errand{fmt::format("elastic-{},seed={},radius-ratio={}", axis, packing.seed, format_number(ratio)),
-                  elastic_deck_, samples_.of(packing, ratio, young)};
-    add(errand.overrides,
-        {{"stretch", length_text(strain() * samples_.extent())}, {"time", time_text(transits * samples_.transit())}});
-    if (axis != first_axis()) add(errand.overrides, turned_to(axis));
-    return errand;
-  }
-
-  std::string first_axis() const { return plan_.decks.is_cylinder ? "z" : "x"; }
-
-  static Overrides turned_to(const std::string& axis) {
-    return {{"axis", axis},
-            {"others", axis == "x"   ? "y z"
-                       : axis == "y" ? "x z"
-                                     : "x y"},
-            {"turns", "r" + axis},
-            {"nx", axis == "x" ? "1" : "0"},
-            {"ny", axis == "y" ? "1" : "0"},
-            {"nz", axis == "z" ? "1" : "0"}};
-  }
-
-  static Real last(std::span<const Real> values) {
-    return values.empty() ? std::numeric_limits<Real>::quiet_NaN() : values.back();
-  }
-
-  Elastic read(const Outcome& outcome, const std::string& axis, Real young) const {
-    const Real force = last(outcome.column("force", "force")), stretch = last(outcome.column("force", "displacement"));
-    const auto near = outcome.column("near", "mean"), far = outcome.column("far", "mean");
-    const Real length = near.empty() || far.empty() ? std::numeric_limits<Real>::quiet_NaN() : far[0] - near[0];
-    const auto core = [&](const char* what, char a) {
-      return last(outcome.column("core", fmt::format("{}-{}{}", what, a, a)));
-    };
-    Real strain = 0, stress = 0, lateral_strain = 0, lateral_stress = 0;
-    for (const char a : {'x', 'y', 'z'}) {
-      const bool is_along = a == axis[0];
-      (is_along ? strain : lateral_strain) += core("strain", a) / (is_along ? 1 : 2);
-      (is_along ? stress : lateral_stress) += core("stress", a) / (is_along ? 1 : 2);
-    }
-    const Real modulus = force * length / stretch / young;
-    return {-lateral_strain / strain, modulus / samples_.section(true), modulus / samples_.section(false),
-            stress / strain / young, lateral_stress / stress};
-  }
+  std::string first_axis() const { return calibration::first_axis(plan_.decks); }
 
   // All samples at each of these ratios.
   void measure(const std::vector<Real>& ratios) {
@@ -129,13 +88,13 @@ class Work {
     for (const Real ratio : ratios)
       for (std::size_t k = 0; k < found_.packings.size(); ++k) {
         const Packed& packing = found_.packings[k];
-        errands.push_back(elastic_errand(packing, ratio, guessed_young(packing, ratio), first_axis()));
+        errands.push_back(pulls_.errand(packing, {ratio, guessed_young(packing, ratio), first_axis()}));
         of.emplace_back(k, ratio);
       }
     const std::vector<Outcome> outcomes = desk_.runner.run(errands);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const auto [sample, ratio] = of[k];
-      const Elastic one = read(outcomes[k], first_axis(), guessed_young(found_.packings[sample], ratio));
+      const Elastic one = pulls_.read(outcomes[k], first_axis(), guessed_young(found_.packings[sample], ratio));
       if (!outcomes[k].is_done() || !std::isfinite(one.poisson) || !std::isfinite(one.centres)) {
         desk_.log.warn(fmt::format("{} is left out: {}", errands[k].name, outcomes[k].reason));
         continue;
@@ -227,11 +186,11 @@ class Work {
     std::vector<Errand> errands;
     for (const char* axis : {"y", "z"})
       for (const Packed& packing : found_.packings)
-        errands.push_back(elastic_errand(packing, found_.ratio, found_.young, axis));
+        errands.push_back(pulls_.errand(packing, {found_.ratio, found_.young, axis}));
     const std::vector<Outcome> outcomes = desk_.runner.run(errands);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const std::string axis = k < found_.packings.size() ? "y" : "z";
-      if (outcomes[k].is_done()) found_.along[axis].push_back(read(outcomes[k], axis, found_.young));
+      if (outcomes[k].is_done()) found_.along[axis].push_back(pulls_.read(outcomes[k], axis, found_.young));
     }
     for (const auto& [axis, all] : found_.along)
       desk_.log.say(fmt::format("along {}: E {} GPa, Poisson's ratio {}", axis,
@@ -244,11 +203,10 @@ class Work {
   }
 
   const Plan& plan_;
-  Samples samples_;
+  Pulls pulls_;
   const StudyDesk& desk_;
   Location poisson_at_;
   Found found_;
-  std::filesystem::path elastic_deck_;
   std::map<std::pair<std::size_t, Real>, Elastic> elastic_;  ///< by sample and radius ratio
 };
 

@@ -19,30 +19,36 @@ struct SampleDecks {
   Real within;          ///< share by which what breaks may be below what breaks first
 };
 
+/// Along which a sample is longest.
+inline const char* first_axis(const SampleDecks& d) { return d.is_cylinder ? "z" : "x"; }
+
 inline const char* deck_head(bool is_part) {
   return is_part ? "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Made by beadwork calibrate; included by the decks "
                    "beside it. -->\n<scene>\n"
                  : "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Made by beadwork calibrate. -->\n";
 }
 
-/// Sizes: of a box with side a, or of a cylinder with radius a/2 and twice that wide as high. As many elements of mean
-/// radius R as fill 0.64 of it.
+/// How often a sample is as long as it is wide.
+inline Real slenderness(bool is_cylinder) { return is_cylinder ? 2 : 1; }
+
+/// Sizes: of a box with side a, or of a cylinder with radius a/2. As many elements of mean radius R as fill 0.64 of it.
 inline std::string size_deck(const SampleDecks& d) {
-  const std::string side = d.is_cylinder ? "(elements*8/(3*0.64))^(1/3)*R" : "(elements*4*pi/(3*0.64))^(1/3)*R";
   return fmt::format(
       R"({}  <parameter name="elements" value="{}"/>
-  <parameter name="R" value="1 mm"/>                  <!-- mean radius -->
-  <parameter name="a" value="${{{}}}"/>  <!-- {} -->
-  <parameter name="length" value="${{{}}}"/>          <!-- along z -->
+  <parameter name="slender" value="{}"/>               <!-- how often it is as long as it is wide -->
+  <parameter name="R"       value="1 mm"/>            <!-- mean radius -->
+  <parameter name="a"       value="${{(elements*{}/(3*0.64*slender))^(1/3)*R}}"/>  <!-- {} -->
+  <parameter name="length"  value="${{slender*a}}"/>    <!-- along {} -->
 </scene>
 )",
-      deck_head(true), d.elements, side, d.is_cylinder ? "diameter" : "side", d.is_cylinder ? "2*a" : "a");
+      deck_head(true), d.elements, slenderness(d.is_cylinder), d.is_cylinder ? "16" : "4*pi",
+      d.is_cylinder ? "diameter" : "side", first_axis(d));
 }
 
 inline std::string packing_deck(const SampleDecks& d) {
   const std::string shape = d.is_cylinder
                                 ? R"(cylinder-radius="${a/2}" from="${a/2} ${a/2} 0 mm" to="${a/2} ${a/2} ${length}")"
-                                : R"(box="${a} ${a} ${a}")";
+                                : R"(box="${length} ${a} ${a}")";
   return fmt::format(
       R"({}<scene name="packing" seed="${{seed}}">
   <parameter name="seed" value="1"/>
@@ -59,32 +65,44 @@ inline std::string packing_deck(const SampleDecks& d) {
       deck_head(false), shape, d.spread, d.coordination, d.counted);
 }
 
-/// A sample between two grips one element deep: stretched along an axis, its sides free.
+/// A sample: its bonds, the grips one element deep at both ends, and its core.
 inline std::string sample_deck(const SampleDecks& d, const std::string& packing) {
   const std::string core =
       d.is_cylinder ? "(x - a/2)^2 + (y - a/2)^2 &lt; (a/2 - 3*R)^2 and z > 3*R and z &lt; length - 3*R"
-                    : "x > 3*R and x &lt; a - 3*R and y > 3*R and y &lt; a - 3*R and z > 3*R and z &lt; a - 3*R";
-  const std::string volume = d.is_cylinder ? "pi*(a/2 - 3*R)^2*(length - 6*R)" : "(a - 6*R)^3";
+                    : "x > 3*R and x &lt; length - 3*R and y > 3*R and y &lt; a - 3*R and z > 3*R and z &lt; a - 3*R";
   return fmt::format(
       R"({}  <include file="size.xml"/>
   <parameter name="packing" value="{}"/>
   <parameter name="axis"   value="{}"/>
-  <parameter name="others" value="{}"/>
-  <parameter name="turns"  value="{}"/>               <!-- about the axis -->
   <parameter name="nx" value="{}"/>
   <parameter name="ny" value="0"/>
   <parameter name="nz" value="{}"/>
-  <parameter name="extent" value="${{{}}}"/>          <!-- along the axis -->
   <parameter name="young"  value="1 GPa"/>            <!-- of the bonds, as all that follows -->
   <parameter name="poisson" value="0.3"/>
   <parameter name="radius-ratio" value="0.3"/>
   <fill>
     <read-packing set="solid" file="${{packing}}" density="1000 kg/m^3"/>
     <region set="near" where="nx*x + ny*y + nz*z &lt; 2*R"/>
-    <region set="far"  where="nx*x + ny*y + nz*z > extent - 2*R"/>
+    <region set="far"  where="nx*x + ny*y + nz*z > length - 2*R"/>
     <region set="core" where="{}"/>
   </fill>
   <bond><cohesive-beam name="beam" between="solid solid" young="${{young}}" poisson="${{poisson}}" radius-ratio="${{radius-ratio}}"/></bond>
+  <watch>
+    <sensor field="position" component="${{axis}}" set="near" every="${{every}}" name="near"/>
+    <sensor field="position" component="${{axis}}" set="far"  every="${{every}}" name="far"/>
+  </watch>
+</scene>
+)",
+      deck_head(true), packing, first_axis(d), d.is_cylinder ? "0" : "1", d.is_cylinder ? "1" : "0", core);
+}
+
+/// A sample that is pulled along an axis, its sides free.
+inline std::string pulled_deck(const SampleDecks& d) {
+  const std::string volume = d.is_cylinder ? "pi*(a/2 - 3*R)^2*(length - 6*R)" : "(a - 6*R)^2*(length - 6*R)";
+  return fmt::format(
+      R"({}  <include file="sample.xml"/>
+  <parameter name="others" value="{}"/>
+  <parameter name="turns"  value="{}"/>               <!-- about the axis -->
   <load>
     <hold set="near" axes="${{axis}}"/>
     <hold set="near" axes="${{others}} ${{turns}}" grip="mean"/>
@@ -92,23 +110,21 @@ inline std::string sample_deck(const SampleDecks& d, const std::string& packing)
   <watch>
     <force-curve of="far" axis="${{axis}}" every="${{every}}" title="Tension"/>
     <stress-strain of="core" volume="${{{}}}" every="${{every}}" name="core"/>
-    <sensor field="position" component="${{axis}}" set="near" every="${{every}}" name="near"/>
-    <sensor field="position" component="${{axis}}" set="far"  every="${{every}}" name="far"/>
   </watch>
 </scene>
 )",
-      deck_head(true), packing, d.is_cylinder ? "z" : "x", d.is_cylinder ? "x y" : "y z", d.is_cylinder ? "rz" : "rx",
-      d.is_cylinder ? "0" : "1", d.is_cylinder ? "1" : "0", d.is_cylinder ? "length" : "a", core, volume);
+      deck_head(true), d.is_cylinder ? "x y" : "y z", d.is_cylinder ? "rz" : "rx", volume);
 }
 
-/// Stretched by `stretch`: at once to the equilibrium; or, with inertia, over `time`, and half as long again kept there,
-/// to come to rest.
-inline std::string elastic_deck(const SampleDecks& d) {
-  const bool is_static = d.by == "static";
+/// Stretched by `stretch`, or pressed where `sense` is -1: at once to the equilibrium; or, with inertia, over `time`,
+/// and half as long again kept there, to come to rest.
+inline std::string elastic_deck(const std::string& by) {
+  const bool is_static = by == "static";
   return fmt::format(
       R"({}<scene name="elastic">
-  <include file="sample.xml"/>
+  <include file="pulled.xml"/>
   <parameter name="stretch" value="1e-4 mm"/>
+  <parameter name="sense"   value="1"/>
   <parameter name="time"    value="1 ms"/>
   <parameter name="every"   value="{}"/>
   <load><pull set="far" axis="${{axis}}" {}/></load>
@@ -116,8 +132,9 @@ inline std::string elastic_deck(const SampleDecks& d) {
 </scene>
 )",
       deck_head(false), is_static ? 1 : 100,
-      is_static ? R"(velocity="${stretch/time}")" : R"(table="0 s 0 m/s, ${time/2} ${2*stretch/time}, ${time} 0 m/s")",
-      is_static ? R"(<static increment="${stretch}" until="${stretch}"/>)"
+      is_static ? R"(velocity="${sense*stretch/time}")"
+                : R"(table="0 s 0 m/s, ${time/2} ${2*sense*stretch/time}, ${time} 0 m/s")",
+      is_static ? R"(<static increment="${stretch}" free="pin" until="${stretch}"/>)"
                 : R"(<verlet bond-damping="0.1" until="${1.5*time}"/>)");
 }
 
@@ -135,7 +152,7 @@ inline std::string strength_deck(const SampleDecks& d, const std::string& by, co
                 : "<verlet bond-damping=\"0.1\" until=\"${time} or force of far &lt; 50 percent of its maximum\"/>";
   return fmt::format(
       R"({}<scene name="strength">
-  <include file="sample.xml"/>
+  <include file="pulled.xml"/>
   <parameter name="strength" value="1 MPa"/>
   <parameter name="stretch"  value="1 mm"/>           <!-- in which it should have broken -->
   <parameter name="time"     value="1 ms"/>           <!-- that this takes -->

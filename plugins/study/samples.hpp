@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/text.hpp"
+#include "core/mechanics/section.hpp"
 #include "core/plugin/runner.hpp"
 #include "plugins/study/calibration_plan.hpp"
 
@@ -26,35 +27,54 @@ inline Real rounded(Real value, int to_digits) {
 inline std::string length_text(Real metres) { return format_number(rounded(metres * 1e3, significant)) + " mm"; }
 inline std::string time_text(Real seconds) { return format_number(rounded(seconds * 1e6, significant)) + " us"; }
 
+/// Width of a box or of a cylinder [m]; as size.xml has it, where the mean radius is 1 mm.
+inline Real width_of(bool is_cylinder, std::int64_t elements, Real slender) {
+  constexpr Real phi = 0.64, radius = 1e-3;
+  return std::cbrt(static_cast<Real>(elements) * (is_cylinder ? 16 : 4 * std::numbers::pi) / (3 * phi * slender)) *
+         radius;
+}
+
 class Samples {
  public:
-  explicit Samples(const Plan& plan) : plan_(plan) {}
+  explicit Samples(const Plan& plan) : Samples(plan, plan.decks.elements, slenderness(plan.decks.is_cylinder)) {}
+  Samples(const Plan& plan, std::int64_t elements, Real slender)
+      : plan_(plan),
+        elements_(elements),
+        slender_(slender),
+        width_(width_of(plan.decks.is_cylinder, elements, slender)),
+        extent_(slender * width_) {}
 
-  /// Along the axis [m]; as size.xml has it.
-  Real extent() const {
-    const Real n = static_cast<Real>(plan_.decks.elements), phi = 0.64, radius = 1e-3;
-    return plan_.decks.is_cylinder ? 2 * std::cbrt(n * 8 / (3 * phi)) * radius
-                                   : std::cbrt(n * 4 * std::numbers::pi / (3 * phi)) * radius;
-  }
+  Real width() const { return width_; }
+  /// Along the axis [m].
+  Real extent() const { return extent_; }
   /// Of waves along it, with the decks' density [s].
   Real transit() const { return extent() / std::sqrt(plan_.material.young / 640); }
 
-  /// To the centres of the outer elements, or the whole [m^2].
-  Real section(bool through_centres) const {
-    const Real side = plan_.decks.is_cylinder ? extent() / 2 : extent();
-    const Real width = side - (through_centres ? 2e-3 : 0);
-    return (plan_.decks.is_cylinder ? std::numbers::pi / 4 : 1) * width * width;
+  /// To the centres of the outer elements, or the whole.
+  Section section(bool through_centres) const {
+    const Real width = width_ - (through_centres ? 2e-3 : 0);
+    return of_area((plan_.decks.is_cylinder ? std::numbers::pi / 4 : 1) * width * width);
   }
+  Section of_area(Real area) const { return plan_.decks.is_cylinder ? round_section(area) : square_section(area); }
 
   Overrides of(const Packed& packing, Real ratio, Real young) const {
-    return {{"packing", packing.file},
-            {"radius-ratio", format_number(ratio)},
-            {"young", format_number(young) + " Pa"},
-            {"poisson", format_number(plan_.bond_poisson)}};
+    Overrides all{{"packing", packing.file},
+                  {"radius-ratio", format_number(ratio)},
+                  {"young", format_number(young) + " Pa"},
+                  {"poisson", format_number(plan_.bond_poisson)}};
+    add(all, size());
+    return all;
+  }
+  /// What size.xml is to be told of it.
+  Overrides size() const {
+    if (elements_ == plan_.decks.elements && slender_ == slenderness(plan_.decks.is_cylinder)) return {};
+    return {{"elements", std::to_string(elements_)}, {"slender", format_number(slender_)}};
   }
 
  private:
   const Plan& plan_;
+  std::int64_t elements_;
+  Real slender_, width_, extent_;
 };
 
 }  // namespace beadwork::calibration

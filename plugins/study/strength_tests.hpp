@@ -123,7 +123,7 @@ class StrengthTests {
     else if (most == force.end() || !(*most > 0) || std::next(most) == force.end())
       trouble = "the force has no peak";
     else
-      return *most / samples_.section(plan_.through_centres);
+      return *most / samples_.section(plan_.through_centres).area;
     return std::numeric_limits<Real>::quiet_NaN();
   }
 

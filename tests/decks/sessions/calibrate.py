@@ -1,7 +1,8 @@
-"""What a calibration leaves.   Usage: calibrate.py FOLDER found|known|killed [DECK]"""
+"""What a calibration leaves.   Usage: calibrate.py FOLDER found|known|waves|killed [DECK]"""
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -25,15 +26,32 @@ def found():
     for criterion in ("bbf-axial-bending", "rdef"):
         assert len(result[criterion]["peak"]["samples"]) == 2
         assert abs(result[criterion]["peak"]["mean"] / 60e6 - 1) < 0.05, result[criterion]
+    said = result["tests"]
+    assert [t for t in ("tension", "compression", "bending", "torsion", "wave") if t in said] == ["tension", "compression", "bending", "torsion"], said
+    assert len(said["tension"]["young"]["over_section"]["samples"]) == 1, said["tension"]
+    assert said["farthest_from_tension"]["over_section"] < 0.5, said
+    assert (folder / "resin.calibration.xml").read_text().count("\n       compression ") == 1
+    line = [[float(cell) for cell in row.split(",")] for row in (folder / "curves" / "young.csv").read_text().splitlines()[1:]]
+    assert len(line) == 3 and max(abs(b / a / result["tests"]["tension"]["young"]["over_section"]["mean"] * line[1][0] - 1) for a, b in line) < 1e-6, line
     first = (folder / "curves" / "poisson.csv").read_text().splitlines()
     assert first[0] == "radius-ratio [1],poisson [1],deviation [1],seed-1 [1],seed-2 [1]", first[0]
     rows = [[float(cell) for cell in line.split(",")] for line in first[1:]]
     assert all(a[0] < b[0] and a[1] > b[1] for a, b in zip(rows, rows[1:])), rows  # it falls
-    assert "<svg" in (folder / "report.html").read_text()
+    report = (folder / "report.html").read_text()
+    assert "<svg" in report and re.search(r"<pre>test .*\ntension .*\ncompression .*\nbending .*\ntorsion .*\ncore ", report)
 
 
 def known():
     assert summary["runs"]["run"] == 0 and summary["runs"]["known"] > 15, summary["runs"]
+
+
+def waves():
+    """Of both samples, each along a rod of its own."""
+    said = result["tests"]
+    assert "bending" not in said and len(said["tension"]["young"]["over_section"]["samples"]) == 2, said
+    assert len(said["wave"]["over_that"]["samples"]) == 2 and 0.8 < said["wave"]["over_that"]["mean"] < 1.1, said["wave"]
+    assert 0.97 < said["wave"]["share_bound"]["mean"] < 1, said["wave"]
+    assert len(list((folder / "runs").glob("rod-wave,seed=*"))) == 2
 
 
 def killed():
@@ -60,4 +78,4 @@ def killed():
 
 
 os.environ.setdefault("PATH", os.defpath)
-{"found": found, "known": known, "killed": killed}[sys.argv[2]]()
+{"found": found, "known": known, "killed": killed, "waves": waves}[sys.argv[2]]()
