@@ -33,9 +33,8 @@ class Static final : public Mover {
       {.name = "opening",
        .unit = "m",
        .range = positive,
-       .doc =
-           "While bonds of 'opening-of' soften: how far they open from one equilibrium to the next, in the mean; loads "
-           "follow, backwards too where that takes less (snap-back), and no further than an increment",
+       .doc = "While bonds of 'opening-of' soften: how far they open or slide from one equilibrium to the next, in the "
+              "mean; loads follow, backwards too where that takes less (snap-back), and no further than an increment",
        .optional = true}};
   Param<std::string> opening_of{this,
                                 {.name = "opening-of",
