@@ -178,7 +178,7 @@ void Course::stop_at_event(Real from, Real to, NewtonResult& result) {
     return;
   }
   EventSearch search(std::min<Real>(rows_.used[0], 1), after, choices_.within);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < EventSearch::most_rounds; ++round) {
     const Real part = search.next();
     model_.give_up();
     result = go(from + part * (to - from));
