@@ -139,7 +139,7 @@ bool Course::is_out_of_balance() {
 
 /// The equilibrium at the present loads, once something has broken, or where a stage begins with loads on it.
 void Course::settle() {
-  const NewtonResult result = go(w_.moment().time);
+  const NewtonResult result = within_reach(go(w_.moment().time));
   if (!result.converged()) fail(result, 0);
   rows_.events[0] += 1;
   rows_.released[0] += model_.work_on_the_way();
