@@ -107,7 +107,8 @@ Moment load_moment(hid_t group) {
   };
   refuse_if(stage < 0 || stage > std::numeric_limits<int>::max(), fmt::format("its stage is {}", stage));
   refuse_if(m.step < 0 || !std::isfinite(m.time), fmt::format("it is of step {} at {} s", m.step, m.time));
-  refuse_if(!(std::isfinite(m.time_step) && m.time_step >= 0), fmt::format("its time step is {} s", m.time_step));
+  // statics step back in time where loads follow a snap-back
+  refuse_if(!std::isfinite(m.time_step), fmt::format("its time step is {} s", m.time_step));
   refuse_if(!std::isfinite(m.stage_start) || m.stage_step < 0 || m.stage_step > m.step,
             fmt::format("its stage began at step {} of {}, at {} s", m.stage_step, m.step, m.stage_start));
   return m;
@@ -156,11 +157,11 @@ void load_columns(hid_t place, const std::string& name, Table& table, On on, con
 }
 
 // Rows of a table, which all its columns have. Checked before room is made for them.
-Index saved_rows(hid_t place, const std::string& name) {
+Index saved_rows(hid_t place, const std::string& name, Index most = most_elements) {
   const h5::Handle group = h5::open_group(place, name);
   const std::int64_t rows = h5::integer_attribute(group.id(), "rows");
   const auto columns = h5::names_in(group.id());
-  const bool fits = rows >= 0 && rows <= most_elements && (rows <= 1 || !columns.empty()) &&
+  const bool fits = rows >= 0 && rows <= most && (rows <= 1 || !columns.empty()) &&
                     std::all_of(columns.begin(), columns.end(), [&](const std::string& column) {
                       const auto extent = h5::shape_of(group.id(), column).extent;
                       return !extent.empty() && extent[0] == static_cast<hsize_t>(rows);
@@ -212,15 +213,16 @@ void require_whole(const Domain& domain) {
 // What the scene lists follows from the deck: its rows are there already. A list that it has not made is one that a mover
 // will ask for later.
 void load_lists(hid_t place, Domain& domain) {
+  constexpr Index most = std::numeric_limits<Index>::max();  // a stiffness has a hundred numbers of each element
   const h5::Handle group = h5::open_group(place, "lists");
   for (const auto& [name, list] : domain.lists())
-    if (!h5::has(group.id(), name) || saved_rows(group.id(), name) != list.size())
+    if (!h5::has(group.id(), name) || saved_rows(group.id(), name, most) != list.size())
       throw DeckFailure(
           fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it",
                       list.size(), name));
   for (const std::string& name : h5::names_in(group.id())) {
     Table& list = domain.list(name);
-    list.resize(saved_rows(group.id(), name));
+    list.resize(saved_rows(group.id(), name, most));
     load_columns(group.id(), name, list, On::scene, fmt::format("the scene's {}", name));
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
@@ -112,13 +113,13 @@ std::string Contacts::fastest() const {
   return fmt::format("{} {}, at {:.3g} m/s,", what, domain.elements().column("id").view<Index>()[fastest], speed);
 }
 
-// Velocities stand for the step to come.
+// Velocities stand for the step to come, which may be one back in time.
 bool Contacts::are_old() const {
   const Domain& domain = state_.domain();
   const auto now = domain.elements().column("position").view<Vec3>();
   const auto then = domain.elements().column("searched-at").view<Vec3>();
   const auto velocity = domain.elements().column("velocity").view<Vec3>();
-  const Real dt = longer * state_.moment.time_step;
+  const Real dt = longer * std::abs(state_.moment.time_step);
   return have_walls_turned() || rows::any_of(domain.size(), [&](const auto& at) {
            using T = typename std::decay_t<decltype(at)>::Number;
            const Vec<T> moved = at(now) - at(then), step = at(velocity);
@@ -133,7 +134,7 @@ bool Contacts::have_walls_turned() const {
   const Column* spins = domain.elements().find("spin");
   if (!walls.any() || !spins) return false;
   const auto spin = spins->view<Vec3>(), velocity = domain.elements().column("velocity").view<Vec3>();
-  const Real dt = longer * state_.moment.time_step;
+  const Real dt = longer * std::abs(state_.moment.time_step);
   for (Index k = 0; k < walls.size(); ++k) {
     const Index row = walls.element(k);
     const Real moved = walls.moved(k, domain.pose(row), narrowest_),

@@ -139,7 +139,7 @@ bool Course::is_out_of_balance() {
 
 /// The equilibrium at the present loads, once something has broken, or where a stage begins with loads on it.
 void Course::settle() {
-  const NewtonResult result = go(w_.moment().time);
+  const NewtonResult result = within_reach(go(w_.moment().time));
   if (!result.converged()) fail(result, 0);
   rows_.events[0] += 1;
   rows_.released[0] += model_.work_on_the_way();
@@ -178,7 +178,7 @@ void Course::stop_at_event(Real from, Real to, NewtonResult& result) {
     return;
   }
   EventSearch search(std::min<Real>(rows_.used[0], 1), after, choices_.within);
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < EventSearch::most_rounds; ++round) {
     const Real part = search.next();
     model_.give_up();
     result = go(from + part * (to - from));

@@ -35,7 +35,7 @@ const char* in_words(Reason reason) {
     case Reason::too_many_iterations: return "too many iterations";
     case Reason::grows: return "the residual grows";
     case Reason::far_away: return "the next equilibrium lies far away (snap-back: 'opening' follows it)";
-    case Reason::outruns_skin: return "an element moves by more than the skin of contacts allows";
+    case Reason::outruns_skin: return "an element moves by more than the skin of contacts allows (a wider 'skin' does)";
     case Reason::no_number: return "forces are no numbers";
     case Reason::singular: return "the stiffness is singular";
     case Reason::linear_solver: return "the linear solver did not come to its end";

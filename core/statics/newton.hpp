@@ -1,7 +1,7 @@
 #pragma once
 // Equilibrium by Newton's iteration.        docs/theory/statics.md
 
-#include <string>
+#include <cstdint>
 
 #include "core/statics/static_model.hpp"
 #include "core/statics/supported_system.hpp"

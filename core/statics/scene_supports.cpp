@@ -1,8 +1,6 @@
 // What holds the elements of a scene: loads, and where nothing does, the mover itself.
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <cmath>
 
 #include "core/domain/bodies.hpp"
 #include "core/mechanics/rigid_turn.hpp"

@@ -29,6 +29,7 @@ class StaticModel {
   /// loads of the trial; it stays as it is. In a small increment they fall to nothing on the way; where something snaps they
   /// do more than the increment itself, and that would become motion [J].
   virtual Real work_on_the_way() = 0;
+  /// Of the trial; between two trials that of the last accepted state.
   virtual Real time() const = 0;
   /// Forces smaller than this are round-off [N].
   virtual Real noise() const = 0;

@@ -17,7 +17,6 @@ class StiffnessMatrix {
   /// `length`: that of the unknown of a turn of 1 rad; 0 where elements do not turn [m].
   StiffnessMatrix(Index elements, const std::vector<std::pair<Index, Index>>& pairs, Real length);
 
-  int per_element() const { return per_element_; }
   void clear();
   /// The symmetric part of what a bond between two of the pairs resists with.
   void add(Index first, Index second, const Matrix12& bond);

@@ -14,7 +14,6 @@ class SupportedSystem {
  public:
   explicit SupportedSystem(std::unique_ptr<LinearSolver> solver) : solver_(std::move(solver)) {}
 
-  LinearSolver& solver() { return *solver_; }
   /// Takes the pattern of the matrices to come; what factors of it will take in memory is known then [bytes].
   Real analyse(const SymmetricMatrix& pattern);
   /// Factors K, of that pattern, where it is free.

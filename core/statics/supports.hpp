@@ -30,10 +30,6 @@ struct Supports {
 struct Lacking {
   Vector fixed;  ///< by unknown; of those that are fixed alone it counts
   Vector means;  ///< by mean
-
-  bool anything() const {
-    return fixed.lpNorm<Eigen::Infinity>() > 0 || (means.size() > 0 && means.lpNorm<Eigen::Infinity>() > 0);
-  }
 };
 
 }  // namespace beadwork

@@ -142,6 +142,7 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
 
   void connect(Domain& domain, BondTable& table) override {
     note_turned(domain, table);
+    const auto id = domain.elements().column("id").view<Index>();
     const Real of_family = *radius_of == "family" ? mean_radius(table) : 0;
     for (Index row = 0; row < table.size(); ++row) {
       const Index i = table.first()[row];
@@ -151,7 +152,7 @@ class CohesiveBeam final : public BondLawOf<CohesiveBeamLaw, CohesiveBeamFromTur
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
         refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a beam between them has no "
                                  "direction; move one of them or leave it out of the sets",
-                                 i, j, *name));
+                                 id[i], id[j], *name));
       const BeamRest<Real> rest = round_beam(apart, *young, *poisson, r);
       axis.set(row, rest.axis);
       length[row] = rest.length;

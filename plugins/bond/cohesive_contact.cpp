@@ -200,6 +200,7 @@ class CohesiveContact final
   bool is_in_stress() const override { return false; }  // Eq (6) is of beams
 
   void connect(Domain& domain, BondTable& table) override {
+    const auto id = domain.elements().column("id").view<Index>();
     Real sum = 0;
     for (Index row = 0; row < table.size(); ++row) {
       const Index i = table.first()[row];
@@ -208,7 +209,7 @@ class CohesiveContact final
       if (!(apart.norm() > 1e-12 * (radius[i] + radius[j])))
         refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a contact between them has no "
                                  "normal; move one of them or leave it out of the sets",
-                                 i, j, *name));
+                                 id[i], id[j], *name));
       if (length) length[row] = apart.norm();
       area[row] = *area_radius == "mean" ? contact_area(radius[i], radius[j])
                                          : contact_area_on_large(std::min(radius[i], radius[j]));

@@ -62,7 +62,8 @@ class Spring final : public BondLawOf<SpringLaw> {
   Writes<Real> section_radius{this, field::section_radius};
   Writes<Real> axial_force{this, field::axial_force};
 
-  void connect(Domain&, BondTable& table) override {
+  void connect(Domain& domain, BondTable& table) override {
+    const auto id = domain.elements().column("id").view<Index>();
     for (Index row = 0; row < table.size(); ++row) {
       const Index i = table.first()[row];
       const Index j = table.second()[row];
@@ -70,7 +71,7 @@ class Spring final : public BondLawOf<SpringLaw> {
       if (!(distance > 1e-12 * (radius[i] + radius[j])))
         refuse(at(), fmt::format("elements {} and {} of family '{}' stand at one place: a spring between them has no "
                                  "direction; move one of them or leave it out of the sets",
-                                 i, j, *name));
+                                 id[i], id[j], *name));
       const SpringRest<Real> rest = round_spring(distance, *young, *radius_ratio * 0.5 * (radius[i] + radius[j]));
       length[row] = rest.length;
       axial[row] = rest.axial;

@@ -101,7 +101,7 @@ class Static final : public Mover {
                     "free is held where it is"}};
   Keeps<Real> share{this, {"increment-share", On::scene, "1", "Share of an increment that is tried next"}};
   Keeps<Real> used{this, {"utilisation", On::scene, "1", "Highest utilisation at the last equilibrium"}};
-  Keeps<Real> does{this, {"increment-force", On::scene, "N", "What the last increment has changed of the forces"}};
+  Keeps<Real> does{this, {"increment-force", On::scene, "N", "Most that an increment has changed of the forces"}};
   Keeps<Real> released{this, {"released", On::scene, "J", "Energy set free by breaks on the way to a new equilibrium"}};
   Keeps<Real> noise{this,
                     {"force-noise", On::scene, "N", "Round-off of forces, by the stiffness when the stage began"}};

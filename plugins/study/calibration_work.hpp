@@ -81,6 +81,10 @@ class Work {
 
   std::string first_axis() const { return calibration::first_axis(plan_.decks); }
 
+  void warn_left_out(const Errand& errand, const Outcome& outcome) const {
+    desk_.log.warn(fmt::format("{} is left out: {}", errand.name, outcome.reason));
+  }
+
   // All samples at each of these ratios.
   void measure(const std::vector<Real>& ratios) {
     std::vector<Errand> errands;
@@ -96,7 +100,7 @@ class Work {
       const auto [sample, ratio] = of[k];
       const Elastic one = pulls_.read(outcomes[k], first_axis(), guessed_young(found_.packings[sample], ratio));
       if (!outcomes[k].is_done() || !std::isfinite(one.poisson) || !std::isfinite(one.centres)) {
-        desk_.log.warn(fmt::format("{} is left out: {}", errands[k].name, outcomes[k].reason));
+        warn_left_out(errands[k], outcomes[k]);
         continue;
       }
       found_.curves[sample].poisson.note(ratio, one.poisson);
@@ -138,7 +142,7 @@ class Work {
     constexpr int rounds = 6;
     for (int round = 0; round < rounds; ++round) {
       const Response poisson = mean_poisson();
-      if (poisson.is_empty()) throw PhysicsFailure("error: no elastic sample came to its end");
+      if (poisson.is_empty()) throw PhysicsFailure("error: at no radius ratio all samples came to their end");
       const auto ratio = poisson.where(wanted);
       if (!ratio) refuse_target(poisson);
       found_.ratio = rounded(*ratio, significant);
@@ -149,6 +153,10 @@ class Work {
       if (std::abs(scatter_of(each(now, &Elastic::poisson)).mean - wanted) < close_) break;
     }
     found_.elastic = at(found_.ratio);
+    const Real reached = scatter_of(each(found_.elastic, &Elastic::poisson)).mean;
+    if (!(std::abs(reached - wanted) < close_))
+      desk_.log.warn(fmt::format("at the radius ratio that was found Poisson's ratio is {:.4g}, where {} is wanted",
+                                 reached, format_number(wanted)));
     for (const Curves& curves : found_.curves)
       if (const auto own = curves.poisson.where(wanted)) found_.ratios.push_back(*own);
     desk_.log.say(fmt::format("found: radius ratio {}, by each sample {}", format_number(found_.ratio),
@@ -190,7 +198,10 @@ class Work {
     const std::vector<Outcome> outcomes = desk_.runner.run(errands);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const std::string axis = k < found_.packings.size() ? "y" : "z";
-      if (outcomes[k].is_done()) found_.along[axis].push_back(pulls_.read(outcomes[k], axis, found_.young));
+      if (outcomes[k].is_done())
+        found_.along[axis].push_back(pulls_.read(outcomes[k], axis, found_.young));
+      else
+        warn_left_out(errands[k], outcomes[k]);
     }
     for (const auto& [axis, all] : found_.along)
       desk_.log.say(fmt::format("along {}: E {} GPa, Poisson's ratio {}", axis,

@@ -43,7 +43,10 @@ class MechanicalTests {
     const std::vector<Outcome> outcomes = desk_.runner.run(errands);
     std::map<Real, Real> points;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
-      points[young[k]] = modulus_of(plan_, pulls_.read(outcomes[k], axis(), young[k])) * young[k];
+      if (outcomes[k].is_done())
+        points[young[k]] = modulus_of(plan_, pulls_.read(outcomes[k], axis(), young[k])) * young[k];
+      else
+        warn_left_out(errands[k], outcomes[k]);
     if (const auto here = tested_.front().moduli.find("tension"); here != tested_.front().moduli.end())
       points[found_.young] = here->second.section;
     std::erase_if(points, [](const auto& point) { return !std::isfinite(point.second); });
@@ -67,7 +70,10 @@ class MechanicalTests {
       if (outcomes[k].is_done())
         read(k, outcomes[k]);
       else
-        desk_.log.warn(fmt::format("{} is left out: {}", errands[k].name, outcomes[k].reason));
+        warn_left_out(errands[k], outcomes[k]);
+  }
+  void warn_left_out(const Errand& errand, const Outcome& outcome) const {
+    desk_.log.warn(fmt::format("{} is left out: {}", errand.name, outcome.reason));
   }
 
   // Without it no other test says much: it tells Poisson's ratio, and the section that carries.

@@ -39,7 +39,7 @@ class OneSpring final : public StaticModel {
     for (int k = 0; k < pieces; ++k) work += time_ - law_(accepted_ + (k + 0.5) / pieces * (place - accepted_));
     return work * (place - accepted_) / pieces;
   }
-  Real time() const override { return accepted_time_; }
+  Real time() const override { return time_; }
   Real noise() const override { return 1e-14; }
   void give_up() override { place = accepted_, time_ = accepted_time_; }
   void accept() { accepted_ = place, accepted_time_ = time_; }
@@ -131,6 +131,18 @@ TEST(Newtons, refuse_an_equilibrium_beyond_a_snap) {
   }
   EXPECT_NEAR(load, 1.0787, 0.021);  // sin u + u/20 at cos u = -1/20
   EXPECT_LT(s.model.place, 1.63);
+}
+
+// The load is 1 at the top of a sine; behind it the way goes on where the load goes back.
+TEST(Newtons, that_are_led_by_a_motion_go_over_a_peak) {
+  Solving s([](Real u) { return std::sin(u); }, [](Real u) { return std::cos(u); });
+  for (int k = 1; k <= 10; ++k) {
+    ASSERT_TRUE(s.newton.go_by(Vector::Ones(1), 0.25).converged()) << k;
+    EXPECT_NEAR(s.model.moved()[0], 0.25, 1e-12);
+    EXPECT_NEAR(s.model.time(), std::sin(0.25 * k), 1e-6);
+    s.model.accept();
+  }
+  EXPECT_NEAR(s.model.place, 2.5, 1e-12);
 }
 
 TEST(Newtons, tell_of_negative_pivots_at_the_state_that_they_begin_with) {

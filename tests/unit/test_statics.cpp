@@ -194,9 +194,9 @@ TEST(Supports_, take_what_is_even_over_a_mean_and_leave_the_rest) {
 
 TEST(StiffnessMatrices, add_up_bonds_in_units_of_a_length) {
   const Real length = 0.5;
-  StiffnessMatrix scene(3, {{0, 1}, {1, 2}, {0, 1}}, length);
+  StiffnessMatrix scene(3, {{0, 1}, {1, 2}}, length);
   MatrixXd full = MatrixXd::Zero(18, 18);
-  const std::pair<Index, Index> bonds[] = {{0, 1}, {1, 2}, {0, 1}};
+  const std::pair<Index, Index> bonds[] = {{0, 1}, {1, 2}, {0, 1}};  // two of one pair
   for (unsigned b = 0; b < 3; ++b) {
     Matrix12 k;
     for (int c = 0; c < 12; ++c) k.col(c) = random_vector(12, 10 + 20 * b + static_cast<unsigned>(c));
@@ -249,21 +249,31 @@ TEST(Events, are_found_in_one_round_where_the_utilisation_is_a_straight_line) {
   EXPECT_TRUE(search.take(share, 0.2 + 1.6 * share));
 }
 
-TEST(Events, are_found_on_a_curve_and_at_a_jump) {
-  const auto rounds = [](const auto& utilisation) {
-    EventSearch search(utilisation(0.), utilisation(1.), 1e-9);
-    for (int round = 1; round < 200; ++round) {
-      const Real share = search.next();
-      if (search.take(share, utilisation(share))) return std::pair(round, share);
-    }
-    return std::pair(1000, 0.);
-  };
-  const auto [curved, at_curve] = rounds([](Real s) { return 3 * s * s; });
-  EXPECT_LT(curved, 15);
-  EXPECT_NEAR(3 * at_curve * at_curve, 1, 1e-8);
-  const auto [jumping, at_jump] = rounds([](Real s) { return s < 0.3 ? 0.1 : 2.; });
-  EXPECT_LT(jumping, 100);
-  EXPECT_NEAR(at_jump, 0.3, 1e-9);
+// The share at which the search ends, and after how many rounds.
+template <class F>
+std::pair<Real, int> found_event(const F& utilisation) {
+  EventSearch search(utilisation(0.), utilisation(1.), 1e-9);
+  for (int round = 1; round <= EventSearch::most_rounds; ++round) {
+    const Real share = search.next();
+    if (search.take(share, utilisation(share))) return {share, round};
+  }
+  return {-1, EventSearch::most_rounds + 1};
+}
+
+TEST(Events, are_found_in_a_few_rounds_on_a_curve) {
+  const auto [share, rounds] = found_event([](Real s) { return 3 * s * s; });
+  EXPECT_NEAR(3 * share * share, 1, 1e-8);
+  EXPECT_LT(rounds, 10);
+}
+
+TEST(Events, are_found_at_a_jump_of_any_height) {
+  for (const Real at : {0.01, 0.3, 0.5, 0.9})
+    for (const Real below : {0.1, 0.9, 0.999})
+      for (const Real above : {1.1, 2., 10., 100.}) {
+        const auto [share, rounds] = found_event([&](Real s) { return s < at ? below : above; });
+        EXPECT_GE(share, at) << below << " " << above;
+        EXPECT_NEAR(share, at, 1e-11) << below << " " << above;
+      }
 }
 
 TEST(Increments, end_when_what_is_pulled_has_come_so_far) {
