@@ -113,17 +113,22 @@ std::string Contacts::fastest() const {
   return fmt::format("{} {}, at {:.3g} m/s,", what, domain.elements().column("id").view<Index>()[fastest], speed);
 }
 
-// Velocities stand for the step to come, which may be one back in time.
+// How far an element of this speed may go in the step to come, which may be one back in time. A mover that meets moments
+// keeps within its reach by itself.
+Real Contacts::ahead(Real speed) const {
+  return state_.meets_moments ? reach() : longer * std::abs(state_.moment.time_step) * speed;
+}
+
 bool Contacts::are_old() const {
   const Domain& domain = state_.domain();
   const auto now = domain.elements().column("position").view<Vec3>();
   const auto then = domain.elements().column("searched-at").view<Vec3>();
   const auto velocity = domain.elements().column("velocity").view<Vec3>();
-  const Real dt = longer * std::abs(state_.moment.time_step);
+  const Real at_rest = ahead(0), dt = ahead(1) - at_rest;
   return have_walls_turned() || rows::any_of(domain.size(), [&](const auto& at) {
            using T = typename std::decay_t<decltype(at)>::Number;
            const Vec<T> moved = at(now) - at(then), step = at(velocity);
-           return sqrt(dot(moved, moved)) + T(dt) * sqrt(dot(step, step)) > T(narrowest_);
+           return sqrt(dot(moved, moved)) + T(dt) * sqrt(dot(step, step)) > T(narrowest_ - at_rest);
          });
 }
 
@@ -134,12 +139,11 @@ bool Contacts::have_walls_turned() const {
   const Column* spins = domain.elements().find("spin");
   if (!walls.any() || !spins) return false;
   const auto spin = spins->view<Vec3>(), velocity = domain.elements().column("velocity").view<Vec3>();
-  const Real dt = longer * std::abs(state_.moment.time_step);
   for (Index k = 0; k < walls.size(); ++k) {
     const Index row = walls.element(k);
     const Real moved = walls.moved(k, domain.pose(row), narrowest_),
                turns = Vec3(spin[row]).isZero() ? 0 : Vec3(spin[row]).norm() * walls.lever(k, narrowest_);
-    if (moved + dt * (Vec3(velocity[row]).norm() + turns) > narrowest_) return true;
+    if (moved + ahead(Vec3(velocity[row]).norm() + turns) > narrowest_) return true;
   }
   return false;
 }

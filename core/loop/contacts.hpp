@@ -23,6 +23,7 @@ class Contacts {
 
  private:
   void search();
+  Real ahead(Real speed) const;
   bool are_old() const;
   bool have_walls_turned() const;
   std::vector<std::pair<Index, Index>> held_pairs() const;

@@ -67,6 +67,7 @@ void Course::step() {
     advance();
   model_.accept();
   kept_.note(newton_, system_, model_.supports());
+  heed_burden();
 }
 
 std::vector<MoverFigure> Course::figures() const {
@@ -78,6 +79,7 @@ std::vector<MoverFigure> Course::figures() const {
           {"events", rows_.events[0]},
           {"worst_residual", rows_.worst[0]},
           {"negative_pivots", rows_.negative[0]},
+          {"pins_bear", rows_.borne[0]},
           {"factors", static_cast<Real>(costs.factors)},
           {"factor_seconds", costs.factor_seconds},
           {"stiffness_seconds", costs.stiffness_seconds},
@@ -109,7 +111,9 @@ void Course::hold() {
     const auto id = w_.domain().elements().column("id").view<Index>();
     refuse(choices_.at,
            fmt::format("nothing holds a body of {} elements, of which element {} is one, against this: it can {}{}; "
-                       "hold it (a mean is enough: grip=\"mean\"), or free=\"pin\" keeps it where it is",
+                       "hold it (a mean is enough: grip=\"mean\"), or free=\"pin\" keeps it where it is; what contacts "
+                       "press on at the start "
+                       "counts as held",
                        body.members.size(), id[body.members.front()], join(names_of(body.modes), ", "),
                        free.size() > 1 ? fmt::format("; so can {} others in some way", free.size() - 1) : ""));
   }
@@ -127,6 +131,26 @@ void Course::heed_changes() {
   if (meets) analyse();
   if (broke_ || meets) hold();  // what was loose may touch something now
   kept_.heed(newton_, model_.supports());
+}
+
+// What is pinned because nothing holds it bears nothing where it is in equilibrium.
+void Course::heed_burden() {
+  constexpr Real too_much = 0.05, noticed = 1e-3;  // of what all supports take
+  const SceneModel::Burden burden = model_.burden();
+  rows_.borne[0] = std::max(rows_.borne[0], burden.share);
+  if (burden.share <= noticed) return;
+  const std::string what = fmt::format(
+      "step {}: element {}, which no load and no bond holds, is under a force of {:.3g} N {}", w_.moment().step,
+      w_.domain().elements().column("id").view<Index>()[model_.element_of(burden.unknown)], burden.force,
+      model_.axis_of(burden.unknown));
+  if (burden.share > too_much && !choices_.pins_free)
+    throw PhysicsFailure(
+        fmt::format("{}: {}: there is no equilibrium; end the stage when something breaks "
+                    "(until=\"force of ... < ...\"), or go on with inertia: <verlet>",
+                    choices_.at.where(), what));
+  w_.log().say_once("burden", fmt::format("{}, {:.2g} % of what supports take: a pin bears it, which a real body would "
+                                          "not find",
+                                          what, 100 * burden.share));
 }
 
 // What broke pulls at the supports no more. Contacts that have opened by themselves leave nothing out of balance; what a
@@ -203,6 +227,7 @@ bool Course::advance_by_opening(IncrementShare& tried, bool softening_only) {
     newton_.forget_factor();
     const NewtonResult result = within_reach(newton_.go_by(*gradient, tried.share() * *choices_.opening));
     rows_.spent[0] += result.iterations;
+    warn(result);
     if (result.converged()) {
       if (w_.moment().time > longest) return model_.give_up(), false;
       w_.moment().time_step = w_.moment().time - from;
@@ -212,16 +237,21 @@ bool Course::advance_by_opening(IncrementShare& tried, bool softening_only) {
       return true;
     }
     model_.give_up();
-    if (!tried.cut()) fail(result, 0);
+    if (!tried.cut()) {
+      if (!softening_only) fail(result, 0);
+      rows_.share[0] = 1;  // loads may yet lead on
+      return false;
+    }
     note_cut(tried, result);
   }
 }
 
 NewtonResult Course::go(Real to) {
+  const bool goes_on = to != w_.moment().time;
   w_.moment().time_step = to - w_.moment().time;
   NewtonResult result;
   for (const Manner manner : {Manner::quick, Manner::thorough, Manner::careful}) {
-    if (manner == Manner::careful && choices_.opening) break;  // it knows another way
+    if (manner == Manner::careful && choices_.opening && goes_on) break;  // it knows another way
     if (manner != Manner::quick) model_.give_up(), w_.moment().time_step = to - w_.moment().time;
     result = newton_.go(to, manner);
     rows_.spent[0] += result.iterations;

@@ -29,12 +29,12 @@ struct CourseChoices {
 
 /// Numbers of the scene that it remembers.
 struct CourseRows {
-  View<Real> share;                                            ///< of an increment, that is tried next
-  View<Real> used;                                             ///< highest utilisation at the last equilibrium
-  View<Real> does;                                             ///< most that an increment has changed of the forces [N]
-  View<Real> released;                                         ///< by breaks, on the way to new equilibria [J]
-  View<Real> noise, energy_noise;                              ///< round-off of forces [N] and energies [J]
-  View<Real> spent, cuts, carefully, events, worst, negative;  ///< what it has taken, for the summary
+  View<Real> share;                ///< of an increment, that is tried next
+  View<Real> used;                 ///< highest utilisation at the last equilibrium
+  View<Real> does;                 ///< most that an increment has changed of the forces [N]
+  View<Real> released;             ///< by breaks, on the way to new equilibria [J]
+  View<Real> noise, energy_noise;  ///< round-off of forces [N] and energies [J]
+  View<Real> spent, cuts, carefully, events, worst, negative, borne;  ///< what it has taken, for the summary
 };
 
 class Course {
@@ -54,6 +54,7 @@ class Course {
   void note_breaks(bool resumed);
   void hold();
   void heed_changes();
+  void heed_burden();
   bool is_out_of_balance();
   void settle();
   void advance();

@@ -34,7 +34,8 @@ const char* in_words(Reason reason) {
     case Reason::converged: return "converged";
     case Reason::too_many_iterations: return "too many iterations";
     case Reason::grows: return "the residual grows";
-    case Reason::far_away: return "the next equilibrium lies far away (snap-back: 'opening' follows it)";
+    case Reason::far_away:
+      return "something snaps, and the next equilibrium lies far away ('opening' follows bonds that soften)";
     case Reason::outruns_skin: return "an element moves by more than the skin of contacts allows (a wider 'skin' does)";
     case Reason::no_number: return "forces are no numbers";
     case Reason::singular: return "the stiffness is singular";
@@ -185,8 +186,8 @@ NewtonResult Newton::go(Real time, Manner manner) {
 
     const bool found = judge.finds(f, du);
     judge.tell(result);
-    if (found && goes_on &&
-        (judge.is_far() || (judge.is_farther_than_thought() && model_.work_on_the_way() > 3 * judge.energy())))
+    ++served_;
+    if (found && goes_on && judge.is_farther_than_thought() && model_.work_on_the_way() > 3 * judge.energy())
       return result.reason = Reason::far_away, result;
     if (found) return result;
 
@@ -195,7 +196,7 @@ NewtonResult Newton::go(Real time, Manner manner) {
       return result.reason = Reason::grows, result;
     if (careful && goes_on && judge.is_far()) return result.reason = Reason::far_away, result;
     if (least < 0 || left < least) least = left;
-    forced = !quick || ++served_ >= patience || left > slow * std::max(least, judge.allowed() - judge.floor());
+    forced = !quick || served_ >= patience || left > slow * std::max(least, judge.allowed() - judge.floor());
     before = left;
   }
   --result.iterations;

@@ -60,6 +60,13 @@ class SceneModel final : public StaticModel {
   std::optional<Vector> opening(const std::string& family, bool softening_only) const;
   /// The farthest that an element has gone since the last accepted state [m].
   Real farthest() const;
+  /// The most that the mover's own pins and loose elements bear at the accepted state.
+  struct Burden {
+    Real force = 0;  ///< [N]
+    Real share = 0;  ///< of all that supports take; 0 within round-off
+    int unknown = -1;
+  };
+  Burden burden() const;
   /// Elements that nothing binds, which are held where they are.
   Index loose() const { return loose_; }
   /// The pairs that bonds and contacts make have changed since the stiffness got its pattern.
@@ -83,6 +90,10 @@ class SceneModel final : public StaticModel {
   void fix_prescribed();
   void fix_held();
   void fix_loose();
+  void keep(int unknown);
+  std::vector<char> pressed_elements() const;
+  void collect_forces();
+  void leave_unbalanced();
   void pin(const FreeBody& body);
   void pin_means();
   void choose_pins(const std::vector<Constraint*>& means, const std::vector<std::vector<int>>& choices);

@@ -45,11 +45,46 @@ std::vector<FreeBody> SceneModel::support(bool pin_free) {
   begin_support(bodies(w_.domain(), tables(), w_.moment().step));
   for (Index i = 0; i < count_; ++i) rows_.held[i] = 0;
   std::vector<FreeBody> free = free_bodies(w_.domain(), tables(), w_.constraints(), turning(), w_.moment().step);
+  const std::vector<char> pressed = pressed_elements();
+  std::erase_if(free, [&](const FreeBody& body) {
+    return std::any_of(body.members.begin(), body.members.end(),
+                       [&](Index row) { return pressed[static_cast<std::size_t>(row)] != 0; });
+  });
   if (pin_free)
     for (const FreeBody& each : free) pin(each);
   fix_held();
   pin_means();
   return free;
+}
+
+// By contacts that resist at present: they hold a body as far as they go, and it is none of the free ones.
+std::vector<char> SceneModel::pressed_elements() const {
+  std::vector<char> pressed(static_cast<std::size_t>(count_), 0);
+  for (const auto& [law, table] : w_.laws()) {
+    if (!table->is_of_contacts()) continue;
+    for (const Chunk& chunk : table->chunks())
+      for (Index row = chunk.begin; row < chunk.live_end; ++row)
+        if (!law->tangent(w_.domain(), *table, row, Slope::secant).isZero(0))
+          for (const Index end : {table->first()[row], table->second()[row]})
+            pressed[static_cast<std::size_t>(end)] = 1;
+  }
+  return pressed;
+}
+
+// What the mover itself keeps in its place should bear nothing.
+SceneModel::Burden SceneModel::burden() const {
+  Burden burden;
+  Real all = 0;
+  for (int u = 0; u < static_cast<int>(forces_.size()); ++u) {
+    if (!supports_.is_fixed(u)) continue;
+    all += forces_[u] * forces_[u];
+    if (supports_.fixed[static_cast<std::size_t>(u)] != Supports::kept || std::abs(forces_[u]) <= burden.force)
+      continue;
+    burden.force = std::abs(forces_[u]);
+    burden.unknown = u;
+  }
+  if (burden.force > 1e3 * noise_) burden.share = burden.force / std::sqrt(all);
+  return burden;
 }
 
 void SceneModel::support_as_before() {
@@ -64,8 +99,14 @@ void SceneModel::fix_prescribed() {
     if (c.grip == Grip::mean) continue;
     for (int axis = 0; axis < per_element(); ++axis)
       if (c.prescribes() >> axis & 1)
-        for (const Index row : sets_[n]) supports_.fixed[static_cast<std::size_t>(unknown(row, axis))] = 1;
+        for (const Index row : sets_[n])
+          supports_.fixed[static_cast<std::size_t>(unknown(row, axis))] = Supports::prescribed;
   }
+}
+
+void SceneModel::keep(int unknown) {
+  char& fixed = supports_.fixed[static_cast<std::size_t>(unknown)];
+  if (fixed == Supports::is_free) fixed = Supports::kept;
 }
 
 // Elements that no bond holds and no contact touches stay where they are.
@@ -79,7 +120,7 @@ void SceneModel::fix_loose() {
   for (Index i = 0; i < count_; ++i) {
     if (bound[static_cast<std::size_t>(i)]) continue;
     ++loose_;
-    for (int axis = 0; axis < per_element(); ++axis) supports_.fixed[static_cast<std::size_t>(unknown(i, axis))] = 1;
+    for (int axis = 0; axis < per_element(); ++axis) keep(unknown(i, axis));
   }
 }
 
@@ -104,8 +145,7 @@ void SceneModel::pin(const FreeBody& body) {
 void SceneModel::fix_held() {
   for (Index i = 0; i < count_; ++i)
     for (int axis = 0; axis < per_element(); ++axis)
-      if (static_cast<unsigned>(rows_.held[i]) >> axis & 1)
-        supports_.fixed[static_cast<std::size_t>(unknown(i, axis))] = 1;
+      if (static_cast<unsigned>(rows_.held[i]) >> axis & 1) keep(unknown(i, axis));
 }
 
 // A spring in each mean: the one that it had, or where it holds most of what no other support does. So that a run that is
@@ -254,8 +294,19 @@ void SceneModel::react(Constraint& c, const Set& set, bool works) {
 // A step is complete: what broke before it does its work no more.
 void SceneModel::accept() {
   w_.evaluate(true);
+  collect_forces();
   react(true);
+  leave_unbalanced();
   note_accepted();
+}
+
+// What supports take is no force on an element any more, as with movers that have inertia.
+void SceneModel::leave_unbalanced() {
+  const Vector left = supports_.unbalanced(forces_);
+  for (Index i = 0; i < count_; ++i) {
+    rows_.force.set(i, left.segment<3>(unknown(i, 0)));
+    if (turning()) rows_.torque.set(i, length_ * left.segment<3>(unknown(i, 3)));
+  }
 }
 
 }  // namespace beadwork

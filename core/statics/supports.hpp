@@ -12,7 +12,8 @@ struct Supports {
     std::vector<int> unknowns;
     int pinned = -1;  ///< one of them, which is held by a spring while the others are eliminated
   };
-  std::vector<char> fixed;  ///< by unknown: 1 where it is prescribed, or held because nothing resists it
+  enum Fixed : char { is_free = 0, prescribed = 1, kept = 2 };
+  std::vector<char> fixed;  ///< by unknown: prescribed, or kept where it is because nothing holds it
   std::vector<Mean> means;
 
   bool is_fixed(int unknown) const { return fixed[static_cast<std::size_t>(unknown)] != 0; }

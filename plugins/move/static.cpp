@@ -111,6 +111,8 @@ class Static final : public Mover {
   Keeps<Real> factored_for{
       this, {"factor-supports", On::scene, "1", "Sign of the supports that the kept stiffness was factored with"}};
   Keeps<Real> negative{this, {"negative-pivots", On::scene, "1", "Most negative pivots of an equilibrium so far"}};
+  Keeps<Real> borne{this,
+                    {"pins-bear", On::scene, "1", "Most that pins of free bodies bear, over what all supports take"}};
   Keeps<Real> spent{this, {"iterations", On::scene, "1", "Iterations so far"}};
   Keeps<Real> cuts{this, {"cuts", On::scene, "1", "Increments that were cut so far"}};
   Keeps<Real> carefully{this, {"carefully", On::scene, "1", "Increments that were tried with a new secant each time"}};
@@ -147,9 +149,9 @@ class Static final : public Mover {
                               torque.view(),
                               radius.view(),
                               held.view()};
-    const CourseRows rows{share.view(),     used.view(),         does.view(),  released.view(),
-                          noise.view(),     energy_noise.view(), spent.view(), cuts.view(),
-                          carefully.view(), events.view(),       worst.view(), negative.view()};
+    const CourseRows rows{share.view(),        used.view(),     does.view(), released.view(),  noise.view(),
+                          energy_noise.view(), spent.view(),    cuts.view(), carefully.view(), events.view(),
+                          worst.view(),        negative.view(), borne.view()};
     course_.emplace(w, choices(w), elements, rows, KeptStiffness::Rows{served.view(), factored_for.view()});
     resumed ? course_->resume() : course_->begin();
   }
