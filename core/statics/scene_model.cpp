@@ -164,7 +164,7 @@ std::optional<Vector> SceneModel::opening(const std::string& family, bool soften
 
 // What two elements have moved against each other, where they touch, in the last step; closing does not count.
 Real SceneModel::add_opening(Index i, Index j, Vector& gradient) const {
-  const Real last = w_.moment().time_step < 0 ? -1 : 1;  // the way alone counts; rates are those of the last step
+  const Real last = w_.moment().time_step;  // 0 where the last equilibrium was sought at one load: it has no rates
   const Vec3 apart = rows_.place[j] - rows_.place[i], n = apart / apart.norm();
   const Real sizes = rows_.radius[i] + rows_.radius[j];
   const Vec3 arm1 = (sizes > 0 ? rows_.radius[i] / sizes : 0.5) * apart, arm2 = arm1 - apart;
