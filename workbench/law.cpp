@@ -131,13 +131,13 @@ int show_laws(const LawArguments& arguments) {
     if (pairs.empty()) pairs = law::pairs_of(loaded, families, filling_options(options), log);
     trials = law::trials_of(families, pairs, arguments.reach);
     law::run(trials, {*loaded.scene, runner, options.libraries, write});
+    law::put_curves(trials, office);
   } catch (const Fault& fault) {
     progress.hide();
     office.close(fault.code() == ExitCode::interrupted ? "interrupted" : "failed", fault.code(), fault.what(), runner);
     throw;
   }
   progress.hide();
-  law::put_curves(trials, office);
   office.take_result(law::result_of(families, trials));
   const ExitCode code = law::worst_of(trials);
   office.close(code == ExitCode::done ? "done" : "failed", code, code == ExitCode::done ? "done" : "see the result",

@@ -17,7 +17,8 @@ void KeptStiffness::begin(const SymmetricMatrix& pattern) {
 }
 
 void KeptStiffness::resume(Newton& newton, const SymmetricMatrix& pattern, const Supports& supports) {
-  if (rows_.served[0] == Newton::no_factor || rows_.supports[0] != supports.sign()) return newton.forget_factor();
+  const bool fits = list_.size() == static_cast<Index>(pattern.value.size()) && rows_.supports[0] == supports.sign();
+  if (rows_.served[0] == Newton::no_factor || !fits) return newton.forget_factor();
   SymmetricMatrix k = pattern;
   const View<Real> kept = numbers();
   for (std::size_t n = 0; n < k.value.size(); ++n) k.value[n] = kept[static_cast<Index>(n)];

@@ -160,6 +160,10 @@ class Static final : public Mover {
   void energy(EnergySink& sink) const override {
     if (released[0] != 0) sink.dissipated("redistribution", released[0]);
   }
+  std::string suspect() const override {
+    return "increments are probably too large for the work of what goes on in them (smaller ones tell), something has "
+           "snapped on the way, or a law's force is not the slope of its stored energy";
+  }
   // Round-off alone, where nothing has been done yet.
   Real swing() const override { return energy_noise[0]; }
   std::vector<MoverFigure> figures() const override {
