@@ -221,8 +221,9 @@ void load_lists(hid_t place, Domain& domain) {
           fmt::format("the checkpoint does not list the {} {} that this deck has; resume with the deck that wrote it",
                       list.size(), name));
   for (const std::string& name : h5::names_in(group.id())) {
+    const bool is_new = domain.lists().count(name) == 0;
     Table& list = domain.list(name);
-    list.resize(saved_rows(group.id(), name, most));
+    if (is_new) list.resize(saved_rows(group.id(), name, most));  // others stay where their views look
     load_columns(group.id(), name, list, On::scene, fmt::format("the scene's {}", name));
   }
 }

@@ -114,6 +114,12 @@ TEST(Checkpoint, what_the_scene_lists_comes_back_and_must_be_as_long) {
   load_checkpoint(scratch / "c.h5", back.domain);
   EXPECT_EQ(got[0], 1.5);
   EXPECT_EQ(got[1], -0.1);
+  EXPECT_EQ(back.domain.lists().size(), 1u);
+
+  Bar without;  // a mover will ask for it
+  load_checkpoint(scratch / "c.h5", without.domain);
+  EXPECT_EQ(list_work(without.domain, 2)[1], -0.1);
+
   list_work(longer.domain, 3);
   EXPECT_NE(beadwork::testing::message_of<DeckFailure>([&] {
               load_checkpoint(scratch / "c.h5", longer.domain);
