@@ -37,7 +37,7 @@ def files():
 def odd_states():
     whole = (run / "checkpoint.h5").read_bytes()
     numbers = (-1.0, 1e300, float("nan"))
-    odd = [("scene", "looks-owed", value) for value in numbers] + [("meta", "time-step", value) for value in numbers if value != 1e300]
+    odd = [("scene", "looks-owed", value) for value in numbers] + [("meta", "time-step", float(value)) for value in ("nan", "inf")]
     odd += [("meta", "stage-step", step) for step in (-1, 10**6)] + [("meta", "stage-start", float("nan"))]
     texts = [("texts", name, "[" * 100000) for name in ("packing", "files")]
     for group, name, value in [*odd, *texts, ("meta", "stage", 1), ("meta", "stage", 2**31 - 1)]:
