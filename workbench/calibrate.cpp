@@ -8,9 +8,7 @@
 #include "core/loop/scene_runner.hpp"
 #include "core/version.hpp"
 #include "workbench/office.hpp"
-#include "workbench/progress.hpp"
 #include "workbench/report/report.hpp"
-#include "workbench/signals.hpp"
 #include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
@@ -39,19 +37,6 @@ DeckRequest request_of(const CalibrateArguments& arguments) {
   return request;
 }
 
-SceneRunnerOptions runner_options(const CalibrateArguments& arguments, Progress& progress, const Log& log) {
-  SceneRunnerOptions options;
-  options.program = fs::canonical("/proc/self/exe");
-  options.folder = fs::absolute(arguments.out) / "runs";
-  options.command = command_line(arguments.words);
-  for (const std::string& library : arguments.deck.libraries) options.libraries.push_back(fs::absolute(library));
-  options.shares = arguments.shares;
-  options.interrupt = &interrupted;
-  options.log = log;
-  options.progress = [&](const Headway& headway) { progress.show(headway); };
-  return options;
-}
-
 int calibrate(const CalibrateArguments& arguments) {
   heed_signals();
   const Loaded loaded = load_checked(request_of(arguments));
@@ -62,16 +47,8 @@ int calibrate(const CalibrateArguments& arguments) {
   Study& study = *loaded.scene->studies.front();
   Office office(arguments.out, *loaded.scene, study.tag());
   Progress progress([](const std::string& line) { say("{}\n", line), std::fflush(stdout); });
-  const auto tell = [&](const std::string& line) {
-    progress.hide();
-    say("{}\n", line);
-    std::fflush(stdout);
-  };
-  const Log log(tell, [&](const std::string& line) {
-    progress.hide();
-    say_error("warning: {}\n", line);
-  });
-  SceneRunner runner(runner_options(arguments, progress, log), loaded.catalogue);
+  const Log log = log_beside(progress);
+  SceneRunner runner(runs_of(arguments, progress, log), loaded.catalogue);
   const StudyDesk desk{
       runner,
       fs::absolute(office.root()),

@@ -11,9 +11,7 @@
 #include "core/loop/bounded_json.hpp"
 #include "workbench/law/results.hpp"
 #include "workbench/office.hpp"
-#include "workbench/progress.hpp"
 #include "workbench/report/report.hpp"
-#include "workbench/signals.hpp"
 #include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
@@ -81,19 +79,6 @@ void refuse_former(const LawArguments& arguments) {
                                   arguments.out));
 }
 
-SceneRunnerOptions runner_options(const LawArguments& arguments, Progress& progress, const Log& log) {
-  SceneRunnerOptions options;
-  options.program = fs::canonical("/proc/self/exe");
-  options.folder = fs::absolute(arguments.out) / "runs";
-  options.command = command_line(arguments.words);
-  for (const std::string& library : arguments.deck.libraries) options.libraries.push_back(fs::absolute(library));
-  options.shares = arguments.shares;
-  options.interrupt = &interrupted;
-  options.log = log;
-  options.progress = [&](const Headway& headway) { progress.show(headway); };
-  return options;
-}
-
 // Of a filling for its radii alone: what it says of the packing is nobody's concern.
 RunOptions filling_options(const SceneRunnerOptions& options) {
   RunOptions filling;
@@ -112,16 +97,8 @@ int show_laws(const LawArguments& arguments) {
   refuse_former(arguments);
   Office office(arguments.out, *loaded.scene, "law", Office::Former::removed);
   Progress progress([](const std::string& line) { say("{}\n", line), std::fflush(stdout); });
-  const auto tell = [&](const std::string& line) {
-    progress.hide();
-    say("{}\n", line);
-    std::fflush(stdout);
-  };
-  const Log log(tell, [&](const std::string& line) {
-    progress.hide();
-    say_error("warning: {}\n", line);
-  });
-  const SceneRunnerOptions options = runner_options(arguments, progress, log);
+  const Log log = log_beside(progress);
+  const SceneRunnerOptions options = runs_of(arguments, progress, log);
   SceneRunner runner(options, loaded.catalogue);
   const auto write = [&](const std::string& name, std::string_view text) {
     return fs::absolute(office.write(name, text));

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "core/io/file.hpp"
 #include "core/loop/json_text.hpp"
 #include "core/loop/summary.hpp"
 #include "core/version.hpp"
+#include "workbench/terminal.hpp"
 
 namespace beadwork {
 
@@ -46,6 +49,18 @@ void Office::close(const std::string& status, ExitCode code, const std::string& 
   summary_["runs"] = {{"run", runner.runs()}, {"known", runner.known()}};
   summary_["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   write("summary.json", json_text(summary_, 2) + "\n");
+}
+
+Log log_beside(Progress& progress) {
+  return {[&progress](const std::string& line) {
+            progress.hide();
+            say("{}\n", line);
+            std::fflush(stdout);
+          },
+          [&progress](const std::string& line) {
+            progress.hide();
+            say_error("warning: {}\n", line);
+          }};
 }
 
 }  // namespace beadwork

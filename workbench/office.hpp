@@ -12,6 +12,9 @@
 #include "core/loop/scene.hpp"
 #include "core/loop/scene_runner.hpp"
 #include "core/plugin/curve.hpp"
+#include "workbench/progress.hpp"
+#include "workbench/signals.hpp"
+#include "workbench/verbs.hpp"
 
 namespace beadwork {
 
@@ -37,5 +40,24 @@ class Office {
   Json summary_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
+
+/// Says and warns on the terminal, where the bar of progress makes room for it.
+Log log_beside(Progress& progress);
+
+/// How the runs of a study are made: its command line (`out`, `words`, `deck`, `shares`) says where and with what.
+template <class Arguments>
+SceneRunnerOptions runs_of(const Arguments& arguments, Progress& progress, const Log& log) {
+  SceneRunnerOptions options;
+  options.program = std::filesystem::canonical("/proc/self/exe");
+  options.folder = std::filesystem::absolute(arguments.out) / "runs";
+  options.command = command_line(arguments.words);
+  for (const std::string& library : arguments.deck.libraries)
+    options.libraries.push_back(std::filesystem::absolute(library));
+  options.shares = arguments.shares;
+  options.interrupt = &interrupted;
+  options.log = log;
+  options.progress = [&](const Headway& headway) { progress.show(headway); };
+  return options;
+}
 
 }  // namespace beadwork

@@ -77,6 +77,16 @@ TEST(Newtons, go_on_with_their_stiffness_from_one_increment_to_the_next) {
   EXPECT_EQ(s.newton.costs().factors, 1);
 }
 
+// Where one iteration does, nothing else asks for a new one: and whether a state is stable, its pivots alone tell.
+TEST(Newtons, find_a_new_stiffness_now_and_then_where_all_is_linear) {
+  Solving s([](Real u) { return 3 * u; }, [](Real) { return 3; });
+  for (int k = 1; k <= 50; ++k) {
+    EXPECT_TRUE(s.newton.go(k).converged());
+    s.model.accept();
+  }
+  EXPECT_EQ(s.newton.costs().factors, 3);
+}
+
 TEST(Newtons, give_a_stiffness_up_that_has_served_too_long) {
   Solving s(stiffening, its_slope);
   for (int k = 1; k <= 40; ++k) {
