@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BatchArguments {
-  DeckArguments deck;
+  DeckArguments deck;  // without its path
+  std::vector<std::string> decks;
   std::string out, engine = "local";
   std::vector<std::string> variations;
   Words words;
@@ -33,16 +34,23 @@ Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
   return wanted.among(runs);
 }
 
-BatchRun run_of(const BatchArguments& arguments, const std::vector<Variation>& variations,
+/// Which deck it is varies first where there are several.
+constexpr const char* deck_column = "deck";
+
+std::string name_of(const std::string& deck) { return fs::path(deck).stem().string(); }
+
+BatchRun run_of(const BatchArguments& arguments, const std::string& deck, const std::vector<Variation>& variations,
                 const std::vector<std::string>& values) {
   BatchRun run;
   run.name = folder_name(variations, values);
   run.values = values;
   run.folder = fs::absolute(arguments.out) / run.name;
   run.deck = arguments.deck;
+  run.deck.path = deck;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    run.deck.settings.push_back(variations[k].name + "=" + values[k]);
-    run.title += (k ? ", " : "") + run.deck.settings.back();
+    const std::string setting = variations[k].name + "=" + values[k];
+    if (k > 0 || arguments.decks.size() == 1) run.deck.settings.push_back(setting);
+    run.title += (k ? ", " : "") + setting;
   }
   if (values.empty()) run.title = run.name;
   return run;
@@ -70,7 +78,10 @@ void write_command(BatchRun& run, int threads, const Words& words) {
 
 std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector<Variation>& variations) {
   std::vector<BatchRun> runs;
-  for (const auto& values : combinations(variations)) runs.push_back(run_of(arguments, variations, values));
+  const auto all = combinations(variations);  // all of the first deck, then of the second ...
+  const std::size_t each = all.size() / arguments.decks.size();
+  for (std::size_t k = 0; k < all.size(); ++k)
+    runs.push_back(run_of(arguments, arguments.decks[k / each], variations, all[k]));
   std::map<std::string, const BatchRun*> by_folder;
   for (const BatchRun& run : runs)
     if (const auto [twin, is_new] = by_folder.emplace(run.name, &run); !is_new)
@@ -83,6 +94,10 @@ std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector
 
 std::vector<Variation> variations_of(const BatchArguments& arguments) {
   std::vector<Variation> variations;
+  if (arguments.decks.size() > 1) {
+    variations.push_back({deck_column, {}});
+    for (const std::string& deck : arguments.decks) variations.back().values.push_back(name_of(deck));
+  }
   for (const std::string& text : arguments.variations) {
     variations.push_back(variation_of(text));
     for (std::size_t k = 0; k + 1 < variations.size(); ++k)
@@ -143,15 +158,17 @@ int worst(const std::vector<BatchRun>& runs) {
 
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
   CLI::App* verb =
-      app.add_subcommand("batch", "Runs a deck with many values of its parameters, and tabulates the results");
+      app.add_subcommand("batch", "Runs decks, each with many values of its parameters, and tabulates the results");
   verb->footer(
       "Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
       "Give the same command again: what is done is left alone, what was interrupted or ran out of disk goes on, the "
       "rest begins anew.\n"
+      "Several decks, 'beadwork batch decks/*.xml --out out/all', share one table: its column 'deck' has their names.\n"
       "beadwork report out/sweep lays the curves of the runs over one another.");
   auto arguments = std::make_shared<BatchArguments>();
   arguments->words = words;
-  arguments->deck.add_to(*verb);
+  verb->add_option("deck", arguments->decks, "The decks, XML files")->required();
+  arguments->deck.add_options_to(*verb);
   verb->add_option("--out", arguments->out, "Folder for the runs, one folder each, and for batch.csv")->required();
   verb->add_option("--vary", arguments->variations,
                    "Values of a parameter: name=value,value,...; several give all combinations")

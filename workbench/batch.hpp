@@ -1,5 +1,5 @@
 #pragma once
-// Many runs of one deck, each with other values of its parameters and a folder of its own.
+// Many runs of decks, each with other values of their parameters and a folder of its own.
 
 #include <filesystem>
 #include <string>

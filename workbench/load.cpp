@@ -9,6 +9,10 @@ namespace beadwork {
 
 void DeckArguments::add_to(CLI::App& verb) {
   verb.add_option("deck", path, "The deck, an XML file")->required();
+  add_options_to(verb);
+}
+
+void DeckArguments::add_options_to(CLI::App& verb) {
   verb.add_option("--set", settings, "Gives a parameter of the deck another value: name=value")
       ->allow_extra_args(false);
   verb.add_option("--plugins", libraries, "A plugin library, or a folder of them")->allow_extra_args(false);

@@ -42,6 +42,8 @@ struct DeckArguments {
   bool no_plugins = false;             ///< the libraries that the deck itself names are not loaded
 
   void add_to(CLI::App& verb);
+  /// The options alone, for a verb that takes several decks.
+  void add_options_to(CLI::App& verb);
   /// DeckFailure if a setting is none.
   DeckRequest request() const;
 };

@@ -1,8 +1,9 @@
 #include "core/domain/bodies.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_set>
+
+#include "core/domain/joined.hpp"
 
 namespace beadwork {
 
@@ -18,27 +19,18 @@ std::unordered_set<Index> broken_by(const Domain& domain, const BondTable& table
 }  // namespace
 
 std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const> tables, std::int64_t when) {
-  std::vector<Index> lower(
-      static_cast<std::size_t>(domain.size()));  // an element of the same body with a lower row, or itself
-  std::iota(lower.begin(), lower.end(), 0);
-  const auto lowest = [&](Index row) {
-    while (lower[static_cast<std::size_t>(row)] != row) {
-      Index& next = lower[static_cast<std::size_t>(row)];
-      row = next = lower[static_cast<std::size_t>(next)];
-    }
-    return row;
-  };
+  Joined body(domain.size());
   for (const BondTable* table : tables) {
     if (table->is_of_contacts()) continue;  // what touches does not hang together
     const auto broken = broken_by(domain, *table, when);
     for (Index b = 0; b < table->size(); ++b) {
       if (broken.contains(table->id()[b])) continue;
-      const auto [first, second] = std::minmax({lowest(table->first()[b]), lowest(table->second()[b])});
-      lower[static_cast<std::size_t>(second)] = first;
+      body.join(table->first()[b], table->second()[b]);
     }
   }
-  for (Index row = 0; row < domain.size(); ++row) lower[static_cast<std::size_t>(row)] = lowest(row);
-  return lower;
+  std::vector<Index> lowest(static_cast<std::size_t>(domain.size()));
+  for (Index row = 0; row < domain.size(); ++row) lowest[static_cast<std::size_t>(row)] = body.lowest(row);
+  return lowest;
 }
 
 Set without_debris(const Set& set, const std::vector<Index>& body) {

@@ -40,6 +40,7 @@ void Domain::reorder(const std::vector<Index>& order) {
     for (Index& row : set) row = row_of[static_cast<std::size_t>(row)];
     std::sort(set.begin(), set.end());
   }
+  for (auto& [name, pairs] : pairs_) rename_rows(pairs, row_of);
   walls_.reorder(row_of);
 }
 

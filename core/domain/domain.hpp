@@ -9,6 +9,7 @@
 
 #include "core/domain/bond_table.hpp"
 #include "core/domain/break_log.hpp"
+#include "core/domain/pair_list.hpp"
 #include "core/domain/walls.hpp"
 
 namespace beadwork {
@@ -36,12 +37,15 @@ class Domain {
 
   /// Appends elements at rest, unturned; their other columns are zero. Returns the first new row.
   Index add_elements(Index count);
-  /// New row i takes what stood in row order[i]; sets follow.
+  /// New row i takes what stood in row order[i]; sets and lists of pairs follow.
   void reorder(const std::vector<Index>& order);
 
   std::map<std::string, Set>& sets() { return sets_; }
   /// Throws std::logic_error for an unknown name.
   const Set& set(const std::string& name) const;
+  /// Neighbours that filling plugins list, by the name of the set that they are of.
+  std::map<std::string, PairList>& pairs() { return pairs_; }
+  const std::map<std::string, PairList>& pairs() const { return pairs_; }
 
   BondTable& add_family(const std::string& name);
   /// A family whose pairs touch without being bonded, and come and go.
@@ -79,6 +83,7 @@ class Domain {
   Table scene_{Table::Layout::rows};
   std::map<std::string, Table> lists_;
   std::map<std::string, Set> sets_;
+  std::map<std::string, PairList> pairs_;
   std::vector<std::unique_ptr<BondTable>> families_;
   std::vector<const BondTable*> shown_;  ///< the same, to those who may only look
   Walls walls_;

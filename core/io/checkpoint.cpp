@@ -14,7 +14,7 @@ namespace beadwork {
 
 namespace {
 
-constexpr std::int64_t format_version = 4;
+constexpr std::int64_t format_version = 5;
 
 // ---- writing
 
@@ -51,6 +51,15 @@ void save_sets(hid_t place, const Domain& domain) {
   const h5::Handle group = h5::make_group(place, "sets");
   for (const auto& [name, set] : domain.sets())
     h5::write_indices(group.id(), name, set, 1, {"1", "Rows of the elements of the set"});
+}
+
+void save_pairs(hid_t place, const Domain& domain) {
+  const h5::Handle group = h5::make_group(place, "pairs");
+  for (const auto& [name, pairs] : domain.pairs()) {
+    std::vector<Index> rows;
+    for (const auto& [first, second] : pairs) rows.insert(rows.end(), {first, second});
+    h5::write_indices(group.id(), name, rows, 2, {"1", "Rows of elements that are neighbours"});
+  }
 }
 
 void save_breaks(hid_t place, const BreakLog& log) {
@@ -208,6 +217,11 @@ void require_whole(const Domain& domain) {
     for (const Index row : set)
       if (row < 0 || row >= elements)
         throw MachineFailure(fmt::format("set '{}' names element {} of {}", name, row, elements));
+  for (const auto& [name, pairs] : domain.pairs())
+    for (const auto& [first, second] : pairs)
+      if (first < 0 || first >= second || second >= elements)
+        throw MachineFailure(
+            fmt::format("neighbours of '{}' are the elements {} and {} of {}", name, first, second, elements));
 }
 
 // What the scene lists follows from the deck: its rows are there already. A list that it has not made is one that a mover
@@ -264,6 +278,16 @@ void load_sets(hid_t place, Domain& domain) {
   for (const std::string& name : h5::names_in(group.id())) domain.sets()[name] = h5::read_indices(group.id(), name);
 }
 
+void load_pairs(hid_t place, Domain& domain) {
+  domain.pairs().clear();
+  const h5::Handle group = h5::open_group(place, "pairs");
+  for (const std::string& name : h5::names_in(group.id())) {
+    const std::vector<Index> rows = h5::read_indices(group.id(), name, 2);
+    PairList& pairs = domain.pairs()[name];
+    for (std::size_t k = 0; k + 1 < rows.size(); k += 2) pairs.emplace_back(rows[k], rows[k + 1]);
+  }
+}
+
 BreakLog load_breaks(hid_t place, const std::vector<Index>& families, const Domain& domain) {
   const h5::Handle group = h5::open_group(place, "breaks");
   BreakLog log;
@@ -312,6 +336,7 @@ void save_checkpoint(const std::filesystem::path& file, const Domain& domain, co
   save_walls(out.id(), domain.walls());
   save_families(out.id(), domain);
   save_sets(out.id(), domain);
+  save_pairs(out.id(), domain);
   save_breaks(out.id(), domain.breaks());
   const auto image = out.image();
   const std::string trailer = check_sum_trailer(image);
@@ -332,6 +357,7 @@ void load_checkpoint(const std::filesystem::path& file, Domain& domain) {
     load_walls(place, domain);
     const auto families = load_families(place, domain);
     load_sets(place, domain);
+    load_pairs(place, domain);
     domain.breaks() = load_breaks(place, families, domain);
     require_whole(domain);
   });

@@ -49,6 +49,20 @@ void write_sets(hid_t place, const Domain& domain) {
   }
 }
 
+void write_pairs(hid_t place, const Domain& domain) {
+  if (domain.pairs().empty()) return;
+  const h5::Handle group = h5::make_group(place, "pairs");
+  const auto id = domain.elements().column("id").view<const Index>();
+  for (const auto& [name, pairs] : domain.pairs()) {
+    std::vector<std::pair<Index, Index>> ids;
+    for (const auto& [first, second] : pairs) ids.push_back(std::minmax({id[first], id[second]}));
+    std::sort(ids.begin(), ids.end());
+    std::vector<Index> flat;
+    for (const auto& [first, second] : ids) flat.insert(flat.end(), {first, second});
+    h5::write_indices(group.id(), name, flat, 2, {"1", "Ids of elements that are neighbours along a fibre"});
+  }
+}
+
 void write_breaks_of(hid_t place, const Domain& domain) {
   const h5::Handle group = h5::make_group(place, "breaks");
   const auto& breaks = domain.breaks().breaks;
@@ -89,6 +103,7 @@ void write_breaks_of(hid_t place, const Domain& domain) {
 void write_all_but_frames(hid_t file, const RunMeta& meta, const Domain& domain) {
   write_meta(file, meta);
   write_sets(file, domain);
+  write_pairs(file, domain);
   write_breaks_of(file, domain);
 }
 

@@ -55,6 +55,7 @@ class Assembly {
   void check_curve_names();
   void check_derived();
   void check_judged();
+  void check_flawed();
   void check_name(const ParamBase& param, const std::string& name);
   std::vector<const Watcher*> watchers() const;
   void check_files();

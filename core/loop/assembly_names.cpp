@@ -129,8 +129,29 @@ void Assembly::check_judged() {
                             fmt::format("'of' names the contacts \"{}\": bonds break, contacts do not", family));
 }
 
+// What is broken from the start is broken when its bonds are made.
+void Assembly::check_flawed() {
+  for (const auto& plugin : scene_.plugins) {
+    const auto* failure = as_kind<Failure>(std::as_const(*plugin));
+    if (!failure || failure->judges()) continue;
+    const std::vector<std::string> families = failure->families();
+    for (const Stage& stage : scene_.stages)
+      for (const BondLaw* law : stage.laws)
+        if (std::find(families.begin(), families.end(), law->family()) != families.end() &&
+            scene_.first_stage(*law) < scene_.first_stage(*failure)) {
+          complaints_.error(
+              failure->of.at(law->family()),
+              fmt::format("bonds '{}' are made in stage '{}', before <{}> stands: what is broken from the "
+                          "start has to stand where they are made",
+                          law->family(), scene_.stages[scene_.first_stage(*law)].name, failure->tag()));
+          return;
+        }
+  }
+}
+
 void Assembly::check_names() {
   check_judged();
+  check_flawed();
   check_derived();
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));

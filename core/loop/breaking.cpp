@@ -1,18 +1,55 @@
 #include "core/loop/breaking.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
+#include "core/base/failure.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/handed_over.hpp"
 
 namespace beadwork {
 
+void Breaking::break_flaws() {
+  for (const auto& [law, table] : state_.laws) {
+    if (table->is_of_contacts() || state_.scene.first_stage(*law) != state_.stage_number()) continue;
+    for (Failure* failure : state_.stage().failures)
+      if (const auto of = failure->families(); std::find(of.begin(), of.end(), table->name()) != of.end())
+        break_flaws_of(*table, *law, *failure);
+  }
+}
+
+void Breaking::break_flaws_of(BondTable& table, const PairLaw& law, Failure& failure) {
+  const auto rows =
+      blaming(failure, state_.moment, [&] { return failure.flaws(state_.domain(), table, state_.scene.seed); });
+  check_rows(rows, table.size(), "flaws", failure, state_.moment);
+  if (!rows.empty() && law.acts_when_broken())
+    refuse(failure.of.at(table.name()),
+           fmt::format("'{}' cannot be broken from the start: contacts of an interface still act when they are broken; "
+                       "leave some out with their 'where'",
+                       table.name()));
+  for (const Index row : rows) {
+    if (table.state()[row] == State::broken) continue;
+    note(table, row, flaw_mode, 0);
+    table.state()[row] = State::broken;
+  }
+  table.sweep();
+}
+
+namespace {
+
+bool looks_now(const Failure& failure, const Moment& moment) {
+  return failure.judges() && moment.step % *failure.every == 0;
+}
+
+}  // namespace
+
 bool Breaking::is_due() const {
   const auto& failures = state_.stage().failures;
   return std::any_of(failures.begin(), failures.end(),
-                     [&](const Failure* failure) { return state_.moment.step % *failure->every == 0; });
+                     [&](const Failure* failure) { return looks_now(*failure, state_.moment); });
 }
 
 void Breaking::heed_events() {
@@ -49,7 +86,7 @@ void Breaking::judge() {
 std::vector<Breaking::Fallen> Breaking::fallen() {
   std::vector<Fallen> all;
   for (Failure* failure : state_.stage().failures) {
-    if (state_.moment.step % *failure->every != 0) continue;
+    if (!looks_now(*failure, state_.moment)) continue;
     fresh_.for_criterion(*failure);
     Verdict verdict = fresh_.judge(*failure);
     for (auto& [criterion, use] : state_.uses)
@@ -84,6 +121,7 @@ void Breaking::keep_highest(std::vector<Fallen>& all, const Breaks& breaks) {
 Real Breaking::highest() {
   Real highest = 0;
   for (Failure* failure : state_.stage().failures) {
+    if (!failure->judges()) continue;
     fresh_.for_criterion(*failure);
     highest = std::max(highest, fresh_.judge(*failure).highest.utilisation);
   }

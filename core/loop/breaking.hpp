@@ -15,6 +15,9 @@ class Breaking {
       : state_(state), offered_(offered), fresh_(fresh), balance_(balance) {}
 
   void begin_stage() { count_live(); }
+  /// Of the families that are made in this stage, what is broken from the start. Nothing has pulled at it: no energy is
+  /// released, and there is no force to be taken off.
+  void break_flaws();
   /// Whether a criterion judges at this step.
   bool is_due() const;
   /// Changes that a law itself has made while settling, such as a contact that opened. What it carried was part of the
@@ -31,6 +34,7 @@ class Breaking {
  private:
   /// What a criterion lets fall.
   using Fallen = std::pair<Failure*, std::vector<Judged>>;
+  void break_flaws_of(BondTable& table, const PairLaw& law, Failure& failure);
   void end(PairLaw& law, BondTable& table, std::span<const BondEvent> events);
   std::vector<Fallen> fallen();
   static void keep_highest(std::vector<Fallen>& all, const Breaks& breaks);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <new>
 #include <stdexcept>
 
@@ -52,11 +53,74 @@ Candidates candidates(const PairLaw& law, const Domain& domain, const Find& find
   return among;
 }
 
+/// Of the pairs of each element of the second set that with the nearest of the first, surface to surface; of equally
+/// near ones that of the lowest id, so that how rows are stored changes nothing.
+void keep_nearest(const BondLaw& law, const Domain& domain, Candidates& among) {
+  const std::vector<char> one = membership(domain, (*law.between)[0]);
+  const auto id = domain.elements().column("id").view<Index>();
+  struct Best {
+    Real distance;
+    Index other;
+    std::size_t pair;
+  };
+  std::map<Index, Best> best;  // by the element of the second set
+  for (std::size_t p = 0; p < among.pairs.size(); ++p) {
+    const auto i = static_cast<std::size_t>(among.pairs[p].i), j = static_cast<std::size_t>(among.pairs[p].j);
+    const Real distance = (among.position[j] - among.position[i]).norm() - among.radius[i] - among.radius[j];
+    const bool first_is_one = one[static_cast<std::size_t>(among.row(among.pairs[p].i))];
+    const Index other = first_is_one ? among.row(among.pairs[p].i) : among.row(among.pairs[p].j);
+    const Index element = first_is_one ? among.row(among.pairs[p].j) : among.row(among.pairs[p].i);
+    const auto [there, fresh] = best.try_emplace(element, Best{distance, id[other], p});
+    if (!fresh && std::pair(distance, id[other]) < std::pair(there->second.distance, there->second.other))
+      there->second = {distance, id[other], p};
+  }
+  std::vector<char> kept(among.pairs.size(), 0);
+  for (const auto& [element, found] : best) kept[found.pair] = 1;
+  std::size_t last = 0;
+  for (std::size_t p = 0; p < kept.size(); ++p)
+    if (kept[p]) among.pairs[last++] = among.pairs[p];
+  among.pairs.resize(last);
+}
+
+/// The pairs that a filling plugin lists of the set, which both ends of the law are of.
+const PairList* listed_pairs(const BondLaw& law, const Domain& domain) {
+  const auto found = domain.pairs().find((*law.between)[0]);
+  return (*law.between)[0] == (*law.between)[1] && found != domain.pairs().end() ? &found->second : nullptr;
+}
+
+std::string neighbours_of(const BondLaw& law, const Domain& domain) {
+  if (!law.neighbours.given()) return listed_pairs(law, domain) ? "listed" : "all";
+  if (*law.neighbours == "listed" && !listed_pairs(law, domain))
+    refuse(
+        law.neighbours.at(),
+        fmt::format("no neighbours are listed of '{}' and '{}': that is done by fillings that make fibres, of the one "
+                    "set that they make",
+                    (*law.between)[0], (*law.between)[1]));
+  if (*law.neighbours == "nearest" && (*law.between)[0] == (*law.between)[1])
+    refuse(law.neighbours.at(),
+           "neighbours=\"nearest\" is for two sets: of each element of the second the nearest of the first");
+  return *law.neighbours;
+}
+
+Candidates listed_ones(const BondLaw& law, const Domain& domain) {
+  Candidates among = candidates(law, domain, [](const Candidates&) { return std::vector<Pair>{}; });
+  std::vector<Index> place(static_cast<std::size_t>(domain.size()), -1);
+  for (std::size_t k = 0; k < among.row_of.size(); ++k)
+    place[static_cast<std::size_t>(among.row_of[k])] = static_cast<Index>(k);
+  for (const auto& [first, second] : *listed_pairs(law, domain))
+    among.pairs.push_back({place[static_cast<std::size_t>(first)], place[static_cast<std::size_t>(second)]});
+  return among;
+}
+
 Candidates near_ones(const BondLaw& law, const Domain& domain, const Pause& pause) {
+  const std::string which = neighbours_of(law, domain);
   const Location& at = law.gap.in_deck() ? law.gap.at() : law.at();
   try {
-    Candidates among = candidates(
-        law, domain, [&](const Candidates& all) { return find_pairs(all.position, all.radius, *law.gap, 0, pause); });
+    Candidates among =
+        which == "listed" ? listed_ones(law, domain) : candidates(law, domain, [&](const Candidates& all) {
+          return find_pairs(all.position, all.radius, *law.gap, 0, pause);
+        });
+    if (which == "nearest") keep_nearest(law, domain, among);
     std::erase_if(among.pairs, [&](const Pair& near) {
       return !blaming(law, "accepts", [&] { return law.accepts(domain, among.row(near.i), among.row(near.j)); });
     });
@@ -71,11 +135,13 @@ Candidates near_ones(const BondLaw& law, const Domain& domain, const Pause& paus
 
 /// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it
 /// does not.
-void mind_far_ones(const BondLaw& law, Candidates& among, const Pause& pause, const Log& log) {
+void mind_far_ones(const BondLaw& law, const Domain& domain, Candidates& among, const Pause& pause, const Log& log) {
+  const std::string which = neighbours_of(law, domain);
+  if (which == "nearest" || which == "listed") return;
   const std::vector<Index> between = elements_between(among.position, among.radius, among.pairs, pause);
   const auto far = std::count_if(between.begin(), between.end(), [](Index k) { return k >= 0; });
   if (far == 0) return;
-  if (*law.neighbours == "next") {
+  if (which == "next") {
     std::size_t kept = 0;
     for (std::size_t p = 0; p < between.size(); ++p)
       if (between[p] < 0) among.pairs[kept++] = among.pairs[p];
@@ -125,7 +191,7 @@ std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Dom
     refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = "
                                  "{} of the sum of their radii between them; a larger 'gap' or another set may help",
                                  *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
-  mind_far_ones(law, among, pause, log);
+  mind_far_ones(law, domain, among, pause, log);
   std::vector<std::pair<Index, Index>> pairs;
   pairs.reserve(among.pairs.size());
   for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));

@@ -75,6 +75,7 @@ void Contacts::begin_stage() {
 }
 
 void Contacts::resume_stage() {
+  chain_ = state_.stage().contacts.empty() ? std::vector<Index>{} : chains(state_.domain());
   narrowest_ = std::numeric_limits<Real>::infinity();
   for (const ContactLaw* law : state_.stage().contacts) narrowest_ = std::min(narrowest_, skin(*law) / 2);
 }
@@ -169,6 +170,13 @@ Pairs Contacts::held_pairs() const {
   }
   std::sort(all.begin(), all.end());
   return all;
+}
+
+// Elements of one fibre overlap from the start, also after its springs have broken.
+bool Contacts::are_of_one_chain(const Near& pair) const {
+  if (chain_.empty()) return false;
+  const Index one = chain_[static_cast<std::size_t>(pair.first)];
+  return one >= 0 && one == chain_[static_cast<std::size_t>(pair.second)];
 }
 
 // Pairs of which a bond broke, in whatever stage, and at which distance of the centres; the nearest of several.
@@ -275,7 +283,9 @@ void Contacts::search() {
 void Contacts::meet_and_part(ContactLaw& law, BondTable& table, const Pairs& bonded) {
   const Domain& domain = state_.domain();
   std::vector<Near> pairs = pairs_in_reach(law, domain, skin(law));
-  std::erase_if(pairs, [&](const Near& pair) { return has(bonded, {pair.first, pair.second}); });
+  std::erase_if(pairs, [&](const Near& pair) {
+    return has(bonded, {pair.first, pair.second}) || are_of_one_chain(pair);
+  });
   for (Index row = 0; row < table.size(); ++row)
     if (!std::binary_search(pairs.begin(), pairs.end(), table.near(row))) {
       const Real held = blaming(law, state_.moment, [&] { return law.stored_energy(domain, table, row); });

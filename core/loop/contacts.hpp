@@ -27,6 +27,7 @@ class Contacts {
   bool are_old() const;
   bool have_walls_turned() const;
   std::vector<std::pair<Index, Index>> held_pairs() const;
+  bool are_of_one_chain(const Near& pair) const;
   std::map<std::pair<Index, Index>, Real> broken_pairs() const;
   void warn_of_two_laws() const;
   void warn_of_deep_starts(const std::map<const ContactLaw*, std::vector<std::pair<Index, Index>>>& before) const;
@@ -38,7 +39,8 @@ class Contacts {
   static constexpr Real longer = 1.5;  ///< the step to come is as long as the last one, or half again
   RunState& state_;
   const Log& log_;
-  Real narrowest_ = 0;  ///< half of the narrowest skin of the stage [m]
+  std::vector<Index> chain_;  ///< of each element that is part of a fibre, else -1; empty where there are none
+  Real narrowest_ = 0;        ///< half of the narrowest skin of the stage [m]
 };
 
 }  // namespace beadwork

@@ -78,7 +78,7 @@ void Fresh::derive_for(const Plugin& reader) {
 void Fresh::offer() {
   if (!offered_.is_told()) forces_.offer();
   for (Failure* failure : state_.stage().failures) {
-    if (offered_.is_judged(*failure)) continue;
+    if (!failure->judges() || offered_.is_judged(*failure)) continue;
     for_criterion(*failure);
     judge(*failure);
   }

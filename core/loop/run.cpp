@@ -90,6 +90,7 @@ void Run::begin_stage() {
   fresh_.begin_stage();
   if (now.step == 0 && now.stage == 0) fresh_.derive_all();  // where all begins
   connect(state_, options_.log);
+  breaking_.break_flaws();
   contacts_.begin_stage();
   prepare_stage(false);
   balance_.begin_stage();

@@ -107,7 +107,8 @@ void RunState::keep_uses() {
   std::vector<const Failure*> criteria;
   for (const Stage& one : scene.stages)
     for (const Failure* failure : one.failures)
-      if (std::find(criteria.begin(), criteria.end(), failure) == criteria.end()) criteria.push_back(failure);
+      if (failure->judges() && std::find(criteria.begin(), criteria.end(), failure) == criteria.end())
+        criteria.push_back(failure);
   Table& list = list_of(domain(), "criteria", criteria.size());
   for (const Failure* failure : criteria) uses.emplace_back(failure, LargestUse(list, static_cast<Index>(uses.size())));
 }

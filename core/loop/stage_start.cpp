@@ -90,6 +90,7 @@ void let_laws_act(RunState& state) {
     if (law->faces_walls()) law->see(domain.walls());
     state.laws.emplace_back(law, table);
   }
+  for (Failure* failure : state.stage().failures) failure->note_spared(domain);
   domain.cut_families();
   domain.clear_halo();  // families that act no longer leave nothing behind to be gathered
   state.scene.bind();

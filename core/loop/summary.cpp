@@ -73,6 +73,24 @@ Json utilisation(const RunState& state, const RunFigures& figures) {
   return all;
 }
 
+// Of each family the bond that broke first, and how; what was broken from the start did not break.
+Json first_breaks(const Domain& domain) {
+  Json all = Json::object();
+  const BreakLog& log = domain.breaks();
+  for (const Break& b : log.breaks) {
+    const std::string& mode = log.modes[static_cast<std::size_t>(b.mode)];
+    const std::string& family = domain.families()[static_cast<std::size_t>(b.family)]->name();
+    if (mode == flaw_mode || all.contains(family)) continue;
+    all[family] = {{"mode", mode},
+                   {"step", b.step},
+                   {"time", b.time},
+                   {"bond", b.bond},
+                   {"place", {b.place[0], b.place[1], b.place[2]}}};
+    if (b.element >= 0) all[family]["element"] = b.element;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::string summary_json(const RunState& state, const Balance& balance, const FileSums& files,
@@ -122,6 +140,7 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   for (const Break& b : log.breaks)
     json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] =
         json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
+  if (!log.breaks.empty()) json["first_breaks"] = first_breaks(domain);
   json["utilisation"] = utilisation(state, figures);
   json["packing"] = Json::array();
   for (const std::string& report : figures.packing_reports) json["packing"].push_back(Json::parse(report));

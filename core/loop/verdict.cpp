@@ -57,7 +57,7 @@ Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const cha
     for (Index row = 0; row < domain.size(); row += 1024)
       stretches.push_back({row, std::min(row + 1024, domain.size())});
     const auto use_of = [&](Index row) {
-      if (!held[static_cast<std::size_t>(row)]) utilisation[row] = 0;
+      if (!held[static_cast<std::size_t>(row)] || failure.spares(row)) utilisation[row] = 0;
       return Real(utilisation[row]);
     };
     read(domain, nullptr, stretches, use_of, all);
@@ -68,8 +68,11 @@ Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const cha
     stretches.clear();
     for (const Chunk& chunk : table->chunks()) stretches.push_back({chunk.begin, chunk.live_end});
     const auto utilisation = table->rows().column(name).view<Real>();
-    read(
-        domain, table, stretches, [&](Index row) { return Real(utilisation[row]); }, all);
+    const auto use_of = [&](Index row) {
+      if (failure.spares(*table, row)) utilisation[row] = 0;
+      return Real(utilisation[row]);
+    };
+    read(domain, table, stretches, use_of, all);
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -134,6 +135,32 @@ void report_overlap(const Crowd& crowd, const std::vector<Pair>& near, PackingRe
     r.max_overlap = std::max(r.max_overlap, 1 - crowd.walls.distance(crowd.ball[i].x) / crowd.ball[i].r);
 }
 
+Surroundings surroundings_of(const Crowd& crowd, Real tolerance) {
+  constexpr Real far = 0.5;  // mean radii
+  constexpr Real none = std::numeric_limits<Real>::infinity();
+  std::vector<Real> gap(crowd.moving, none);  // over the sum of the radii
+  std::vector<char> inside(crowd.moving, 0);
+  for (const Pair& p : near_pairs(crowd, far)) {
+    if (std::size_t(p.j) < crowd.moving) continue;
+    const Ball &a = crowd.ball[std::size_t(p.i)], &b = crowd.ball[std::size_t(p.j)];
+    gap[std::size_t(p.i)] = std::min(gap[std::size_t(p.i)], share(crowd, p));
+    inside[std::size_t(p.i)] |= (b.x - a.x).norm() < b.r;
+  }
+  Surroundings found;
+  Real sum = 0;
+  for (std::size_t i = 0; i < crowd.moving; ++i) {
+    if (gap[i] == none) continue;
+    found.least_gap = found.near == 0 ? gap[i] : std::min(found.least_gap, gap[i]);
+    found.largest_gap = found.near == 0 ? gap[i] : std::max(found.largest_gap, gap[i]);
+    sum += gap[i];
+    ++found.near;
+    found.touching += gap[i] <= tolerance;
+    found.inside += inside[i];
+  }
+  if (found.near > 0) found.mean_gap = sum / Real(found.near);
+  return found;
+}
+
 }  // namespace
 
 Real density_in_bulk(const Packing& packing, Real margin) {
@@ -194,6 +221,7 @@ PackingReport report(const Packing& packing, Real tolerance) {
   r.fabric = fabric_of(crowd, near, [](std::size_t) { return true; });
   r.fabric_bulk = fabric_of(crowd, near, [&](std::size_t i) { return bulk[i] != 0; });
   report_overlap(crowd, near, r);
+  if (!packing.around.position.empty()) r.around = surroundings_of(crowd, tolerance);
   Real solid = 0;
   for (const Real R : packing.radius) solid += 4.0 / 3 * std::numbers::pi * R * R * R;
   r.density = solid / free_volume(packing.region, packing.around);

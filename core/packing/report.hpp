@@ -18,6 +18,15 @@ struct Coordination {
   Real bulk = 0;              ///< over the elements farther than 3 mean radii from the walls
 };
 
+/// How the elements stand around obstacles, such as a fibre: those whose gap to the nearest is below half a mean radius.
+/// Gaps are over the sum of the two radii.
+struct Surroundings {
+  std::size_t near = 0;      ///< elements
+  std::size_t touching = 0;  ///< those within the report's tolerance: what contacts are made of
+  Real least_gap = 0, mean_gap = 0, largest_gap = 0;
+  std::size_t inside = 0;  ///< elements whose centre lies in an obstacle
+};
+
 struct PackingReport {
   std::size_t count = 0;
   std::uint64_t seed = 0;
@@ -33,6 +42,7 @@ struct PackingReport {
   Real density = 0;       ///< volume of the elements / volume of the region outside the obstacles
   Real density_bulk = 0;  ///< volume fraction farther than 3 mean radii from walls and obstacles
   std::size_t bulk_count = 0;
+  Surroundings around;  ///< all zero where there are no obstacles
   Real mean_radius = 0, min_radius = 0, max_radius = 0;
   std::vector<Real> histogram_edges;  ///< R / mean R
   std::vector<std::size_t> histogram;

@@ -15,12 +15,16 @@ class BondLaw : public PairLaw {
        .range = {0, 100},
        .doc = "Largest distance between the surfaces of two elements that are bonded, over the sum of their radii",
        .fallback = "1e-3"}};
-  Param<std::string> neighbours{this,
-                                {.name = "neighbours",
-                                 .doc = "Which elements within 'gap' are bonded: all, or the next only, none over a "
-                                        "third that lies between the two: for a row of elements that overlap",
-                                 .fallback = "all",
-                                 .choices = {"all", "next"}}};
+  Param<std::string> neighbours{
+      this,
+      {.name = "neighbours",
+       .doc =
+           "Which elements are bonded. all: those within 'gap'; next: those of them over which no third lies between "
+           "the two, for a row of elements that overlap; nearest: each element of the second set with the nearest of "
+           "the first within 'gap', and no other; listed: those that the filling plugin lists as neighbours along a "
+           "fibre, at any distance. Where absent: listed where that is done, else all",
+       .optional = true,
+       .choices = {"all", "next", "nearest", "listed"}}};
 
   /// Pairs that are to be bonded, at the start of the stage in which the family first stands.
   virtual bool accepts(const Domain&, Index, Index) const { return true; }

@@ -224,7 +224,7 @@ class CohesiveContact final
     if (*area_rule == "normalised")
       for (Index row = 0; row < table.size(); ++row) area[row] *= *interface_area / sum;
     if (carried()) set_normals(domain, table);
-    tilt_ = carried() ? 0 : tilt_of_lines(table);
+    tilt_ = carried() ? 0 : tilt_of_lines(domain, table);
   }
 
   std::string remark() const override {
@@ -318,8 +318,14 @@ class CohesiveContact final
       }
   }
 
-  /// How far the lines of centres lie off the one direction that they have in common (rms) [deg].
-  Real tilt_of_lines(const BondTable& table) const {
+  /// How far the lines of centres lie off the radius of a fibre, or off the one direction that they have in common (rms)
+  /// [deg].
+  Real tilt_of_lines(const Domain& domain, const BondTable& table) const {
+    if (domain.pairs().contains((*between)[0])) {
+      std::vector<std::pair<Index, Index>> contacts;
+      for (Index row = 0; row < table.size(); ++row) contacts.emplace_back(table.first()[row], table.second()[row]);
+      return InterfaceNormals::tilt_at_fibres(contacts, domain, (*between)[0]);
+    }
     Mat3 mean = Mat3::Zero();
     for (Index row = 0; row < table.size(); ++row) {
       const Vec3 line = (position[table.second()[row]] - position[table.first()[row]]).normalized();
@@ -347,7 +353,7 @@ class CohesiveContact final
     const std::vector<Vec3> normals =
         *normal == "plane"   ? finder.of_plane(plane_normal.given() ? std::optional<Vec3>(*plane_normal) : std::nullopt)
         : axis_point.given() ? finder.of_axis({*axis_point, axis_direction->normalized()})
-                             : finder.of_fibres(domain.set((*between)[0]), position.view(), radius.view());
+                             : finder.of_fibres(domain, (*between)[0]);
     for (Index row = 0; row < table.size(); ++row) {
       const auto carried = carried_normals(normals[static_cast<std::size_t>(row)], orientation[table.first()[row]],
                                            orientation[table.second()[row]]);

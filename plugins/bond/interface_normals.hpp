@@ -46,10 +46,15 @@ class InterfaceNormals {
   }
 
   /// Away from the fibres that are rows of elements of the first set: each goes, at an element, where its neighbours
-  /// lie.
-  std::vector<Vec3> of_fibres(std::span<const Index> fibre, const View<const Vec3>& position,
-                              const View<const Real>& radius) {
-    const std::vector<Vec3> directions = directions_along(fibre, position, radius);
+  /// lie: those that its filling listed, else those that it touches.
+  std::vector<Vec3> of_fibres(const Domain& domain, const std::string& set) {
+    const auto position = domain.elements().column("position").view<Vec3>();
+    const auto radius = domain.elements().column("radius").view<Real>();
+    const auto listed = domain.pairs().find(set);
+    const Set& fibre = domain.set(set);
+    const std::vector<Vec3> directions =
+        directions_along(fibre, listed == domain.pairs().end() ? touching(fibre, position, radius) : listed->second,
+                         position, domain.size());
     return radial([&](const Meeting& m) {
       if (m.order == 0)
         refuse(at_, "rows of elements give an axis only between two sets: the fibres first, then what is around them");
@@ -61,6 +66,22 @@ class InterfaceNormals {
                                 element));
       return Axis{position[element], direction};
     });
+  }
+
+  /// How far the lines of centres lie off the radius of listed fibres (rms) [deg].
+  static Real tilt_at_fibres(std::span<const std::pair<Index, Index>> contacts, const Domain& domain,
+                             const std::string& set) {
+    const auto position = domain.elements().column("position").view<Vec3>();
+    const std::vector<Vec3> directions =
+        directions_along(domain.set(set), domain.pairs().at(set), position, domain.size());
+    Real sum = 0;
+    for (const auto& [first, second] : contacts) {
+      const Vec3 line = (position[second] - position[first]).normalized();
+      const Vec3& one = directions[static_cast<std::size_t>(first)];
+      const Real along = line.dot(one.isZero() ? directions[static_cast<std::size_t>(second)] : one);
+      sum += along * along / static_cast<Real>(contacts.size());
+    }
+    return std::asin(std::sqrt(std::min<Real>(1, sum))) * 180 / std::numbers::pi;
   }
 
   /// In words, for the log.
@@ -132,25 +153,34 @@ class InterfaceNormals {
                            std::acos(std::clamp(least, Real(-1), Real(1))) * 180 / std::numbers::pi);
   }
 
-  /// For each element that lies in a row with those that it touches: the way of the row; else zero.
-  static std::vector<Vec3> directions_along(std::span<const Index> fibre, const View<const Vec3>& position,
-                                            const View<const Real>& radius) {
+  static PairList touching(std::span<const Index> fibre, const View<const Vec3>& position,
+                           const View<const Real>& radius) {
     std::vector<Vec3> place;
     std::vector<Real> size;
-    Index last = 0;
     for (const Index row : fibre) {
       place.push_back(position[row]);
       size.push_back(radius[row]);
-      last = std::max(last, row);
     }
-    const NeighbourList near = neighbours_of(find_pairs(place, size, 1e-3), place.size());
-    std::vector<Vec3> directions(static_cast<std::size_t>(last) + 1, Vec3::Zero());
-    for (std::size_t k = 0; k < place.size(); ++k) {
-      std::vector<Vec3> points{place[k]};
-      for (const Index other : near.of(k)) points.push_back(place[static_cast<std::size_t>(other)]);
-      const Spread spread = spread_of(points);
-      if (points.size() > 1 && spread.rms[1] <= straight * spread.rms[2])
-        directions[static_cast<std::size_t>(fibre[k])] = spread.direction[2];
+    PairList pairs;
+    for (const Pair& near : find_pairs(place, size, 1e-3))
+      pairs.emplace_back(fibre[static_cast<std::size_t>(near.i)], fibre[static_cast<std::size_t>(near.j)]);
+    return pairs;
+  }
+
+  /// For each element that lies in a row with its neighbours: the way of the row; else zero.
+  static std::vector<Vec3> directions_along(std::span<const Index> fibre, const PairList& neighbours,
+                                            const View<const Vec3>& position, Index elements) {
+    std::vector<std::vector<Vec3>> around(static_cast<std::size_t>(elements));
+    for (const Index row : fibre) around[static_cast<std::size_t>(row)] = {position[row]};
+    for (const auto& [first, second] : neighbours) {
+      around[static_cast<std::size_t>(first)].push_back(position[second]);
+      around[static_cast<std::size_t>(second)].push_back(position[first]);
+    }
+    std::vector<Vec3> directions(around.size(), Vec3::Zero());
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      if (around[k].size() < 2) continue;
+      const Spread spread = spread_of(around[k]);
+      if (spread.rms[1] <= straight * spread.rms[2]) directions[k] = spread.direction[2];
     }
     return directions;
   }

@@ -79,7 +79,10 @@ class FreeFilling final : public ElementMaker {
     request.seed = own_seed(job.seed);
     request.pause = job.pause;
     request.tell = teller(job, *this, *set);
-    if (around.given()) note_obstacles(domain, request.around);
+    if (around.given()) {
+      require_fibres_inside(domain, request.region);
+      note_obstacles(domain, request.around);
+    }
     guarded(*this, [&] {
       packing::Packing packing = packing::free_filling(request);
       for (const std::string& warning : packing.warnings) job.log.warn(warning);
@@ -121,6 +124,31 @@ class FreeFilling final : public ElementMaker {
         obstacles.position.push_back(position[row]);
         obstacles.radius.push_back(radius[row]);
       }
+  }
+
+  // Beyond the ends of a fibre the box may end; across it, there must be room for the solid around it.
+  void require_fibres_inside(const Domain& domain, const packing::Region& region) const {
+    const packing::Walls walls(region);
+    const auto position = domain.elements().column("position").view<Vec3>();
+    const auto radius = domain.elements().column("radius").view<Real>();
+    for (const std::string& name : *around) {
+      const auto listed = domain.pairs().find(name);
+      if (listed == domain.pairs().end()) continue;
+      for (const auto& [first, second] : listed->second) {
+        const Vec3 along = (position[second] - position[first]).normalized();
+        for (std::size_t w = 0; w < walls.size(); ++w) {
+          const packing::WallView wall = walls.view(w, position[first]);
+          constexpr Real crossing = 0.5;  // |cos| between the fibre and a wall's normal
+          if (std::abs(wall.inward.dot(along)) > crossing || wall.distance >= radius[first] * (1 - 1e-9)) continue;
+          const Vec3 x = position[first];
+          refuse(
+              around.at(name),
+              fmt::format("a fibre of set '{}' leaves the {} across its axis, at {:.6g} {:.6g} {:.6g} m, by {:.3g} m: "
+                          "move it, or make the region wider",
+                          name, packing::describe(region), x.x(), x.y(), x.z(), radius[first] - wall.distance));
+        }
+      }
+    }
   }
 };
 

@@ -1,13 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <set>
 
-#include "core/base/text.hpp"
 #include "core/base/units.hpp"
 #include "core/domain/vocabulary.hpp"
-#include "core/plugin/kinds.hpp"
+#include "plugins/watch/against.hpp"
 
 namespace beadwork {
 
@@ -28,11 +25,7 @@ class CrackLength final : public Watcher {
   Param<Real> start{this,
                     {.name = "start", .unit = "m", .doc = "Place of the first contact: the end of the pre-crack"}};
   Param<Real> end{this, {.name = "end", .unit = "m", .doc = "Place where the contacts end"}};
-  Param<std::string> against{this,
-                             {.name = "against",
-                              .doc = "Set whose driven displacement is the abscissa; time where absent",
-                              .optional = true,
-                              .role = Role::set}};
+  Against against{this};
   Param<std::string> name{this, {.name = "name", .doc = "Name of the curve and of its file", .fallback = "crack"}};
   Param<Formula> reference{
       this,
@@ -55,7 +48,7 @@ class CrackLength final : public Watcher {
   std::vector<std::string> families() const override { return {*of}; }
 
   void choose() override {
-    curve.plan.x = against.given() ? "displacement" : "time";
+    curve.plan.x = against.abscissa();
     if (reference.given()) curve.plan.columns.push_back({"reference", "1"});
   }
 
@@ -70,14 +63,7 @@ class CrackLength final : public Watcher {
   }
 
   void check_stages(std::span<const Constraint> constraints, Complaints& complaints) const override {
-    if (!against.given()) return;
-    std::set<std::string> driven;
-    for (const Constraint& c : constraints)
-      if (c.pulls()) driven.insert(c.set);
-    if (!driven.contains(*against))
-      complaints.error(against.at(),
-                       fmt::format("'against' names set '{}', which nothing in <load> drives while it looks{}",
-                                   *against, did_you_mean(*against, {driven.begin(), driven.end()})));
+    against.check(constraints, complaints);
   }
 
   void look(Sight& sight) override {
@@ -92,20 +78,12 @@ class CrackLength final : public Watcher {
     const Real per_area = all > 0 ? (*end - *start) / all : 0;  // no contacts yet: they come in a later stage
     const Real by_open = *start - *from + per_area * open;
     const Real by_damage = *start - *from + per_area * damaged;
-    std::vector<Real> row{driven(sight), by_open / length, by_damage / length, by_damage - by_open};
+    std::vector<Real> row{against.displacement(sight), by_open / length, by_damage / length, by_damage - by_open};
     if (reference.given()) {
       const Real displacement = row[0];
       row.push_back(std::min<Real>(1, (*reference)({&displacement, 1})));
     }
     curve.row(row);
-  }
-
- private:
-  Real driven(const Sight& sight) const {
-    if (!against.given()) return 0;
-    for (const Constraint& c : sight.constraints())
-      if (c.pulls() && c.set == *against) return std::abs(c.at(sight.moment().time).displacement);
-    return 0;
   }
 };
 

@@ -1,0 +1,103 @@
+// Fibres: where they are placed, what is listed of them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "core/domain/domain.hpp"
+#include "core/packing/packing.hpp"
+#include "core/packing/parallel_discs.hpp"
+#include "tests/support/packings.hpp"
+
+namespace beadwork {
+namespace {
+
+using packing::Discs;
+using packing::message_of;
+using packing::Place;
+using packing::place_discs;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+/// Discs of diameter 1 in a square of that side.
+Discs in_square(std::size_t count, Real side) {
+  return {.low = Place(0.5, 0.5), .high = Place(side - 0.5, side - 0.5), .distance = 1, .count = count};
+}
+
+Real nearest_two(const std::vector<Place>& places) {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, (places[i] - places[j]).norm());
+  return least;
+}
+
+TEST(Fibres, stand_no_nearer_than_asked_and_inside_up_to_a_volume_fraction_of_six_tenths) {
+  for (const Real fraction : {0.1, 0.3, 0.5, 0.6}) {
+    const Real side = 12;
+    const auto count = static_cast<std::size_t>(fraction * side * side / (std::numbers::pi / 4));
+    const auto places = place_discs(in_square(count, side));
+    ASSERT_EQ(places.size(), count);
+    EXPECT_GE(nearest_two(places), 1 - 1e-12) << fraction;
+    for (const Place& x : places) {
+      EXPECT_GE(x.minCoeff(), 0.5);
+      EXPECT_LE(x.maxCoeff(), side - 0.5);
+    }
+  }
+}
+
+TEST(Fibres, stand_at_places_that_their_seed_alone_decides) {
+  Discs discs = in_square(40, 10);
+  const auto first = place_discs(discs), again = place_discs(discs);
+  EXPECT_EQ(first, again);
+  discs.seed = 2;
+  EXPECT_NE(first, place_discs(discs));
+}
+
+// Where they are sparse every place is as likely: the mean of the centres and of their squares are those of the square.
+TEST(Fibres, are_spread_evenly_where_there_is_room) {
+  Place mean = Place::Zero(), square = Place::Zero();
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Discs discs{.low = {0, 0}, .high = {1, 1}, .distance = 0.05, .count = 10, .seed = seed};
+    for (const Place& x : place_discs(discs)) {
+      mean += x;
+      square += x.cwiseProduct(x);
+      ++count;
+    }
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    EXPECT_NEAR(mean[axis] / count, 0.5, 0.02);        // 2000 numbers: standard error .0065
+    EXPECT_NEAR(square[axis] / count, 1.0 / 3, 0.02);  // .0067
+  }
+}
+
+TEST(Fibres, that_do_not_fit_are_refused_with_what_does) {
+  // beyond the densest packing there is, pi / sqrt(12) of the room
+  EXPECT_THAT(message_of([] { place_discs(in_square(200, 12)); }), AllOf(HasSubstr("do not fit"), HasSubstr("would")));
+  Discs thin = in_square(3, 12);
+  thin.high[0] = 0.4;
+  EXPECT_THAT(message_of([&] { place_discs(thin); }), HasSubstr("too narrow"));
+}
+
+TEST(PairLists, follow_their_elements_when_rows_change_places) {
+  Domain domain;
+  domain.add_elements(4);
+  domain.pairs()["fibre"] = {{0, 1}, {1, 2}};
+  domain.reorder({3, 2, 1, 0});
+  EXPECT_EQ(domain.pairs().at("fibre"), (PairList{{1, 2}, {2, 3}}));
+}
+
+TEST(PairLists, join_elements_to_chains_and_leave_the_others_alone) {
+  Domain domain;
+  domain.add_elements(6);
+  EXPECT_TRUE(chains(domain).empty());
+  domain.pairs()["one"] = {{0, 2}, {2, 4}};
+  domain.pairs()["other"] = {{1, 5}};
+  EXPECT_EQ(chains(domain), (std::vector<Index>{0, 1, 0, -1, 0, 1}));
+}
+
+}  // namespace
+}  // namespace beadwork
