@@ -60,13 +60,28 @@ void Breaking::heed_events() {
 }
 
 void Breaking::end(PairLaw& law, BondTable& table, std::span<const BondEvent> events) {
+  bool some_leave = false;
   for (const BondEvent& event : events) {
     check_rows({&event.row, 1}, table.size(), "bonds that changed", law, state_.moment);
     blaming(law, state_.moment, [&] { law.end(state_.domain(), table, event.row); });
     if (event.mode.empty()) continue;
     note(table, event.row, event.mode, event.energy);
-    if (table.state()[event.row] == State::broken && !law.acts_when_broken()) offered_.clear(table, event.row);
+    if (table.state()[event.row] != State::broken || law.acts_when_broken()) continue;
+    leave(law, table, event);
+    some_leave = true;
   }
+  if (!some_leave) return;
+  table.sweep();
+  offered_.note_broken();
+  count_live();
+}
+
+// From here on it takes part in nothing: what it has dissipated, and what it still stores, is booked as released.
+void Breaking::leave(PairLaw& law, BondTable& table, const BondEvent& event) {
+  state_.released_by(table) +=
+      event.energy + blaming(law, state_.moment, [&] { return law.stored_energy(state_.domain(), table, event.row); });
+  blaming(law, state_.moment, [&] { law.withdraw(state_.domain(), table, event.row); });
+  offered_.clear(table, event.row);
 }
 
 void Breaking::judge() {

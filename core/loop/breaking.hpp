@@ -36,6 +36,7 @@ class Breaking {
   using Fallen = std::pair<Failure*, std::vector<Judged>>;
   void break_flaws_of(BondTable& table, const PairLaw& law, Failure& failure);
   void end(PairLaw& law, BondTable& table, std::span<const BondEvent> events);
+  void leave(PairLaw& law, BondTable& table, const BondEvent& event);
   std::vector<Fallen> fallen();
   static void keep_highest(std::vector<Fallen>& all, const Breaks& breaks);
   void fell(const Fallen& fallen);

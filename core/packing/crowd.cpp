@@ -115,6 +115,18 @@ std::vector<char> bulk_of(const Crowd& crowd) {
   return bulk;
 }
 
+std::vector<Real> depth_in_obstacles(const Crowd& crowd) {
+  std::vector<Real> depth(crowd.moving, 0);
+  if (crowd.ball.size() == crowd.moving) return depth;
+  for (const Pair& p : near_pairs(crowd, 0)) {
+    if (std::size_t(p.j) < crowd.moving) continue;
+    const Ball &a = crowd.ball[std::size_t(p.i)], &b = crowd.ball[std::size_t(p.j)];
+    Real& deepest = depth[std::size_t(p.i)];
+    deepest = std::max(deepest, (a.r + b.r - (b.x - a.x).norm()) / a.r);
+  }
+  return depth;
+}
+
 Real coordination(const Crowd& crowd, Neighbours& neighbours) {
   return tally(crowd, neighbours.of(crowd)).contacts / Real(crowd.moving);
 }

@@ -70,6 +70,9 @@ inline constexpr Real bulk_margin = 3;
 /// Which moving elements are farther than 3 mean radii from walls and obstacles.
 std::vector<char> bulk_of(const Crowd&);
 
+/// How far each moving element reaches into an obstacle, over its own radius; 0 where it does not.
+std::vector<Real> depth_in_obstacles(const Crowd&);
+
 /// Contacts among elements (obstacles included, walls not) per moving element; or per one that counts. 0 if none does.
 Real coordination(const Crowd&, Neighbours&);
 Real coordination(const Crowd&, Neighbours&, const std::vector<char>& counts);

@@ -52,6 +52,27 @@ void rearrange(Packing& packing, int steps) {
   put_back(crowd, order, packing);
 }
 
+/// What has been pushed into a crevice between obstacles, which do not give way, waits again for a place elsewhere.
+void take_out_lodged(Packing& packing) {
+  if (packing.around.position.empty()) return;
+  std::vector<Index> order;
+  const Crowd crowd = crowd_of(packing, order);
+  const std::vector<Real> into = depth_in_obstacles(crowd);
+  std::vector<char> lodged(packing.position.size(), 0);
+  for (std::size_t k = 0; k < into.size(); ++k) lodged[std::size_t(order[k])] = into[k] > most_into_obstacle;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < lodged.size(); ++i) {
+    if (lodged[i]) {
+      packing.waiting.push_back(packing.radius[i]);
+      continue;
+    }
+    packing.position[kept] = packing.position[i];
+    packing.radius[kept++] = packing.radius[i];
+  }
+  packing.position.resize(kept);
+  packing.radius.resize(kept);
+}
+
 [[noreturn]] void refuse_waiting(const Packing& packing, Real tolerance, Real share) {
   std::ostringstream out;
   out << packing.waiting.size() << " of " << packing.waiting.size() + packing.position.size()
@@ -97,9 +118,10 @@ void place_all(Packing& packing, Real tolerance) {
   Random random(packing.seed, 3);
   for (int round = 0; !packing.waiting.empty(); ++round) {
     const std::size_t placed = place_waiting(packing, tolerance, random);
-    if (packing.waiting.empty()) return;
+    if (packing.waiting.empty() && packing.around.position.empty()) return;
     if (round == most_rounds || (placed == 0 && round > 5)) return grow_in(packing, tolerance, random);
     rearrange(packing, 100);
+    take_out_lodged(packing);
   }
 }
 

@@ -76,8 +76,10 @@ void InsertionGrid::add_obstacle(const Ball& ball) {
 Real InsertionGrid::clearance(const Ball& ball, Real least) const {
   Real clearance = 1;
   const Eigen::Vector3i middle = place_of(ball.x);
+  constexpr Real nowhere = -2;
   for (const Ball& obstacle : obstacles_at(flat(middle)))
-    if (!lower(clearance, least, ball, obstacle)) return clearance;
+    if (!lower(clearance, std::max(least, -most_into_obstacle * ball.r / (ball.r + obstacle.r)), ball, obstacle))
+      return nowhere;
   for (const auto& step : nearest_first) {
     const Eigen::Vector3i c = middle + Eigen::Vector3i(step[0], step[1], step[2]);
     if ((c.array() < 0).any() || (c.array() >= cells_.array()).any()) continue;
@@ -91,6 +93,27 @@ bool InsertionGrid::clear_of_obstacles(const Vec3& x, Real margin) const {
   for (const Ball& obstacle : obstacles_at(cell_of(x)))
     if ((obstacle.x - x).squaredNorm() < (obstacle.r + margin) * (obstacle.r + margin)) return false;
   return true;
+}
+
+bool InsertionGrid::reachable(const Vec3& x, Real radius) const {
+  constexpr int most_moves = 8;
+  constexpr Real close = 1e-3;
+  Vec3 centre = x;
+  for (int move = 0; move < most_moves; ++move) {
+    Real least = radius;
+    Vec3 away = zero<Vec3>();
+    for (const Ball& obstacle : obstacles_at(cell_of(centre))) {
+      const Vec3 arm = centre - obstacle.x;
+      const Real distance = arm.norm();
+      if (distance - obstacle.r >= least || !(distance > 0)) continue;
+      least = distance - obstacle.r;
+      away = arm / distance;
+    }
+    if (least >= radius * (1 - close)) return true;
+    centre += (radius - least) * away;
+    if ((centre - x).squaredNorm() > radius * radius) return false;
+  }
+  return false;
 }
 
 namespace {

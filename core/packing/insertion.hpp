@@ -21,10 +21,14 @@ class InsertionGrid {
   /// Obstacles may be much larger than a cell: each is entered in every cell from which it can be touched.
   void add_obstacle(const Ball&);
   /// Smallest gap / (R1 + R2) between the ball and the others near it, at most 1; any number below `least` if
-  /// it is below `least`.
+  /// it is below `least`. An obstacle gives way less than others do: what would reach into one by a tenth of its own
+  /// radius fits nowhere.
   Real clearance(const Ball&, Real least) const;
   /// Whether x is at least `margin` outside every obstacle; the margin is at most the largest radius.
   bool clear_of_obstacles(const Vec3& x, Real margin) const;
+  /// Whether x lies in a ball of that radius that no obstacle reaches into: in a crevice too narrow for it no place does.
+  /// The radius is at most half the largest one. Found by moving the ball out of the way of one obstacle after another.
+  bool reachable(const Vec3& x, Real radius) const;
 
  private:
   std::size_t cell_of(const Vec3& x) const { return flat(place_of(x)); }
@@ -49,6 +53,9 @@ class InsertionGrid {
   std::vector<Entry> entry_;
   std::vector<std::vector<Ball>> obstacles_;  ///< per cell; empty if there are none
 };
+
+/// Largest part of its own radius by which an element may be put into an obstacle.
+inline constexpr Real most_into_obstacle = 0.1;
 
 struct InsertionRule {
   Real tolerance = 0;          ///< largest overlap / (R1 + R2)

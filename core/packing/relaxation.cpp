@@ -97,6 +97,20 @@ void warn_of_crystal(Packing& packing, const Crowd& crowd) {
        "then not isotropic; use a spread of .1 or more");
 }
 
+/// What pressure has pushed into a crevice between obstacles becomes as small as it has to be there: else all others would
+/// have to. Returns how many.
+std::size_t shrink_lodged(Crowd& crowd) {
+  constexpr Real much = 0.03;  // of its own radius: what touches an obstacle reaches into it by the overlap of the rest
+  const std::vector<Real> depth = depth_in_obstacles(crowd);
+  std::size_t lodged = 0;
+  for (std::size_t i = 0; i < crowd.moving; ++i) {
+    if (depth[i] <= much) continue;
+    crowd.ball[i].r *= 1 - depth[i];
+    ++lodged;
+  }
+  return lodged;
+}
+
 void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighbours, Real goal) {
   const Real left = shrinkage_needed(crowd, neighbours);
   if (left <= goal) return;
@@ -116,6 +130,8 @@ void relaxation(Packing& packing, const Relaxation& rule) {
   Crowd crowd = crowd_of(packing, order);
   Neighbours neighbours(skin);
   const Real before = coordination(crowd, neighbours);
+  if (const std::size_t lodged = shrink_lodged(crowd); lodged > 0)
+    warn(packing, lodged, " elements were lodged between obstacles, and are as small as the crevices there");
   const Real spread = packing.dispersion.spread;
   const Real change = std::min(rule.radius_change, spread / 5);
   if (change > 0)

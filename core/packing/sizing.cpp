@@ -31,15 +31,18 @@ std::string text(const Parts&... parts) {
 // An element, and the lists of its neighbours and contacts, while it is arranged: more, rather than less.
 constexpr Real bytes_of_element = 400;
 
-Real share_clear(const Region& region, const Obstacles& around, Real margin) {
+/// Of the points that are clear of obstacles by the margin, and that an element of that radius can cover.
+Real share_clear(const Region& region, const Obstacles& around, Real margin, Real radius) {
   constexpr std::uint64_t points = 100000;
   // Cells need not be as small as the margin where the region is large.
-  InsertionGrid grid(region, std::max(margin, inradius(region) / 20));
+  InsertionGrid grid(region, std::max({margin, 2 * radius, inradius(region) / 20}));
   for (std::size_t k = 0; k < around.position.size(); ++k) grid.add_obstacle({around.position[k], around.radius[k]});
   const auto clear = sum_shared<std::uint64_t>(
       points, std::uint64_t{1024}, [&](std::uint64_t begin, std::uint64_t end, std::uint64_t& sum) {
-        for (std::uint64_t k = begin; k < end; ++k)
-          sum += grid.clear_of_obstacles(point_in(region, even_point(k)), margin);
+        for (std::uint64_t k = begin; k < end; ++k) {
+          const Vec3 x = point_in(region, even_point(k));
+          sum += grid.clear_of_obstacles(x, margin) && (radius <= 0 || grid.reachable(x, radius));
+        }
       });
   return Real(clear) / Real(points);
 }
@@ -66,6 +69,8 @@ void check(const Request& q) {
       refuse(text("obstacle ", k, " has a position or radius that is negative or not finite"));
 }
 
+Real smallest(const Request& q) { return 1 - q.dispersion.spread; }
+
 Real largest_fitting(const Request& q) { return inradius(q.region) / (1 + q.dispersion.spread); }
 
 Sizing from_mean_radius(const Request& q) {
@@ -73,7 +78,7 @@ Sizing from_mean_radius(const Request& q) {
   if (R > largest_fitting(q))
     refuse(text("elements of mean radius ", R, " and spread ", q.dispersion.spread, " do not fit into the ",
                 describe(q.region), ": the mean radius can be at most ", largest_fitting(q)));
-  const Real room = effective_volume(q.region, q.around, empty_layer * R);
+  const Real room = effective_volume(q.region, q.around, empty_layer * R, smallest(q) * R);
   const Real count = bulk_density * room / (4.0 / 3 * std::numbers::pi * R * R * R * mean_cube(q.dispersion));
   if (count > most_elements)
     refuse(text("elements of mean radius ", R, " would number ", count, "; at most ", most_elements,
@@ -87,7 +92,8 @@ Sizing from_count(const Request& q) {
   const Real count = Real(*q.count);
   Real R = largest_fitting(q);
   for (int k = 0; k < 8; ++k) {
-    const Real room = effective_volume(q.region, q.around, std::min(empty_layer * R, inradius(q.region) / 2));
+    const Real room =
+        effective_volume(q.region, q.around, std::min(empty_layer * R, inradius(q.region) / 2), smallest(q) * R);
     const Real before = R;
     R = std::cbrt(bulk_density * room / (count * 4 / 3 * std::numbers::pi * mean_cube(q.dispersion)));
     R = std::min(R, largest_fitting(q));
@@ -107,13 +113,13 @@ Sizing from_count(const Request& q) {
 
 }  // namespace
 
-Real effective_volume(const Region& region, const Obstacles& around, Real layer) {
+Real effective_volume(const Region& region, const Obstacles& around, Real layer, Real radius) {
   if (layer >= inradius(region)) return 0;
   const Region inner = layer > 0 ? shrunk(region, layer) : region;
-  return volume(inner) * (around.position.empty() ? 1 : share_clear(inner, around, layer));
+  return volume(inner) * (around.position.empty() ? 1 : share_clear(inner, around, layer, radius));
 }
 
-Real free_volume(const Region& region, const Obstacles& around) { return effective_volume(region, around, 0); }
+Real free_volume(const Region& region, const Obstacles& around) { return effective_volume(region, around, 0, 0); }
 
 Sizing sizing_of(const Request& q) {
   check(q);

@@ -16,8 +16,9 @@ struct Sizing {
 Sizing sizing_of(const Request&);
 
 /// Volume that behaves as if it were filled to the density of the bulk: next to walls and obstacles a layer
-/// of `share` of the radius counts as empty.
-Real effective_volume(const Region&, const Obstacles&, Real layer);
+/// of this thickness counts as empty, and so do crevices between obstacles that an element of this radius does not fit
+/// into.
+Real effective_volume(const Region&, const Obstacles&, Real layer, Real radius);
 
 /// Volume of the region outside the obstacles.
 Real free_volume(const Region&, const Obstacles&);

@@ -130,6 +130,13 @@ class CohesiveContact final
                               .range = positive,
                               .doc = "Area of the interface; needed for 'normalised', else only reported",
                               .optional = true}};
+  Param<std::string> broken{
+      this,
+      {.name = "broken",
+       .doc = "What a contact does that has failed. resists: it still resists closing, without friction; leaves: "
+              "nothing more, and laws of <contact> take its pair, with their friction",
+       .fallback = "resists",
+       .choices = {"resists", "leaves"}}};
   Param<Formula> where{this,
                        {.name = "where",
                         .unit = "",
@@ -196,7 +203,7 @@ class CohesiveContact final
     return (*where)({middle.data(), 3}) == 1;
   }
 
-  bool acts_when_broken() const override { return true; }
+  bool acts_when_broken() const override { return *broken == "resists"; }
   bool is_in_stress() const override { return false; }  // Eq (6) is of beams
 
   void connect(Domain& domain, BondTable& table) override {

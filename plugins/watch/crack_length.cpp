@@ -71,8 +71,9 @@ class CrackLength final : public Watcher {
     Real all = 0, open = 0, damaged = 0;
     for (Index b = 0; b < table.size(); ++b) {
       all += area[b];
-      if (damage[b] >= 1) open += area[b];
-      if (damage[b] > 0) damaged += area[b];
+      const Real lost = table.state()[b] == State::broken ? 1 : damage[b];
+      if (lost >= 1) open += area[b];
+      if (lost > 0) damaged += area[b];
     }
     const Real length = *end - *from;
     const Real per_area = all > 0 ? (*end - *start) / all : 0;  // no contacts yet: they come in a later stage

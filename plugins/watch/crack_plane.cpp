@@ -123,8 +123,9 @@ class CrackPlane final : public Watcher {
     Real all = 0, damaged = 0, open = 0;
     for (Index b = 0; b < table.size(); ++b) {
       all += area[b];
-      if (damage[b] > 0) damaged += area[b];
-      if (damage[b] >= 1) open += area[b];
+      const Real lost = table.state()[b] == State::broken ? 1 : damage[b];
+      if (lost > 0) damaged += area[b];
+      if (lost >= 1) open += area[b];
     }
     row.push_back(all > 0 ? damaged / all : 0);
     row.push_back(all > 0 ? open / all : 0);

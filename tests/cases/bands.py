@@ -504,6 +504,76 @@ def glued_block():
     below("with the line of centres as normal it locks: 4 G_II A over the work", 4 * GII * A / locked.energy["work"], 1)
 
 
+# Rows of elements that are fibres: Eq (12) at any overlap; their contacts at any angle.
+def fibres():
+    E, R, L, F = 70e9, 0.5e-3, 4e-3, 10
+    for overlap in (0, 0.5, 0.9, 0.99, 0.999):
+        result = run("../tests/decks/good/fibre_chain.xml", overlap=overlap)
+        near(f"overlap {overlap}: tip, F L / (E pi R^2)", result.last("tip", "displacement")[2], F * L / (E * math.pi * R**2), 1e-6)
+    A, sigma, G, u_e, u_p = 3 * math.pi * 1e-6, 10e6, 500, 5e-6, 1e-4
+    for angle in (0, 30, 60, 90):
+        result = run("../tests/decks/good/contact_at_angle.xml", angle=angle)
+        first, other = sorted((math.cos(math.radians(angle)), math.sin(math.radians(angle))), reverse=True)
+        k = u_p * other / first  # where the second mode stands when the first fails
+        area = sigma * k**2 / (2 * u_e) if k < u_e else sigma / 2 * (u_p - (u_p - k) ** 2 / (u_p - u_e))
+        near(f"at {angle} degrees: dissipated", result.energy["dissipated"], A * (G + area), 5e-4)
+        below("ledger's residual over work", residual_over_work(result.energy), 1e-4)
+
+
+def strains(result, side):
+    crack = result.curve("crack-plane")
+    return {name: next((2 * u / side for u, v in zip(crack["displacement"], crack[name]) if v > 0), math.inf)
+            for name in ("broken", "damaged share of the interface")}
+
+
+# Section 4 of the paper in a slice; recorded 2026-11-30 by this deck: no theory has the peak.
+def single_fibre():
+    side, depth = 28e-6, 6e-6
+    runs = {ratio: run("single-fibre/quick.xml", ratio=ratio) for ratio in (2, 0.5)}
+    peaks, tangents = {}, {}
+    for ratio, result in runs.items():
+        force = result.curve("force")
+        peaks[ratio] = max(force["force"])
+        low, high = (numpy.interp(u, force["displacement"], force["force"]) for u in (2e-9, 8e-9))
+        tangents[ratio] = (high - low) / (side * depth) / (2 * 6e-9 / side)
+        below(f"ratio {ratio}: ledger's residual over work", residual_over_work(result.energy), 0.02)
+        near(f"ratio {ratio}: contacts over the fibre's elements around it", result.summary["bonds"]["interface"], 75, 0.001)
+        first = strains(result, side)
+        below(f"ratio {ratio}: first damage of the interface over the first break", first["damaged share of the interface"] / first["broken"], 1)
+    near("stiffness of a strong interface over that of a weak one, while both are undamaged", tangents[0.5] / tangents[2], 1, 1e-3)
+    below("peak of the weak interface over that of the strong one", peaks[2] / peaks[0.5], 0.95)
+    near("peak, weak interface, recorded", peaks[2], 6.61e-3, 0.03)
+    near("peak, strong interface, recorded", peaks[0.5], 7.73e-3, 0.03)
+    pores = run("single-fibre/quick.xml", porosity=0.05)
+    near("defects, a twentieth of the resin's bonds", pores.summary["breaks"]["defect"], 0.05 * pores.summary["bonds"]["resin"], 1e-3)
+    below("peak with a porosity of 5 % over that without", max(pores.curve("force")["force"]) / peaks[2], 1)
+
+
+# Section 5: bands hold, strong interfaces carry more; at first the stiffness is that of a composite (Hashin and Shtrikman).
+def multi_fibre():
+    side = 50e-6
+    runs = {ratio: run("multi-fibre/quick.xml", ratio=ratio) for ratio in (2, 0.5)}
+    for ratio, result in runs.items():
+        below(f"ratio {ratio}: ledger's residual over work", residual_over_work(result.energy), 0.02)
+        inside = [place[0] for family, place, _ in result.breaks() if family == "resin"]
+        none(f"ratio {ratio}: breaks in the middle of a band", sum(x < 3e-6 or x > side - 3e-6 for x in inside))
+        none(f"ratio {ratio}: no break at all", len(inside) == 0)
+    peaks = {ratio: max(result.curve("force")["force"]) for ratio, result in runs.items()}
+    below("peak of the weak interface over that of the strong one", peaks[2] / peaks[0.5], 0.6)
+    near("peak, weak interface, recorded", peaks[2], 7.55e-3, 0.05)
+    near("peak, strong interface, recorded", peaks[0.5], 19.8e-3, 0.05)
+    sys.path.insert(0, str(SOURCE / "xml-cases/paper"))
+    from figures import hashin_shtrikman
+    for count, elements in ((3, 14000), (9, 11000)):
+        result = run("multi-fibre/tangent.xml", fibres=count, count=elements)
+        R, force = result.summary["packing"][-1]["mean_radius"], result.curve("force")
+        across, along = side - 2 * R, 30e-6 - 2 * R  # through the centres of the outer elements
+        modulus = force["force"][-1] / (across * along) / (force["displacement"][-1] / across)
+        low, high = hashin_shtrikman(count * math.pi * 25e-12 / side**2)
+        below(f"{count} fibres: lower bound, less 12 %, over the modulus {modulus / 1e9:.3g} GPa", 0.88 * low / modulus, 1)
+        below(f"{count} fibres: modulus over the upper bound", modulus / high, 1)
+
+
 # Bathe and Bolourchi's bend, whose end moves by more than half of its length.
 def curved_beam():
     tips = {}
@@ -563,7 +633,7 @@ def notched_bar_static():
 
 
 with tempfile.TemporaryDirectory(prefix="beadwork-bands-") as scratch:
-    {"two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar, "notched-bar-rdef": notched_bar_rdef,
+    {"fibres": fibres, "single-fibre": single_fibre, "multi-fibre": multi_fibre, "two-elements": two_elements, "cantilever": cantilever, "bar-wave": bar_wave, "notched-bar": notched_bar, "notched-bar-rdef": notched_bar_rdef,
      "three-point-bending": three_point_bending, "brazilian-disc": brazilian_disc, "indentation": indentation, "uniaxial-compression": uniaxial_compression,
      "tension": tension, "heap": heap, "dcb": dcb, "glued-block": glued_block,
      "curved-beam": curved_beam, "roll-up": roll_up, "notched-bar-static": notched_bar_static, "dcb-static": dcb_static,

@@ -8,8 +8,10 @@
 #include <numbers>
 
 #include "core/domain/domain.hpp"
+#include "core/packing/insertion.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/parallel_discs.hpp"
+#include "core/packing/report.hpp"
 #include "tests/support/packings.hpp"
 
 namespace beadwork {
@@ -80,6 +82,45 @@ TEST(Fibres, that_do_not_fit_are_refused_with_what_does) {
   Discs thin = in_square(3, 12);
   thin.high[0] = 0.4;
   EXPECT_THAT(message_of([&] { place_discs(thin); }), HasSubstr("too narrow"));
+}
+
+using packing::Ball;
+using packing::InsertionGrid;
+
+TEST(Crevices, are_reached_by_elements_that_fit_in_and_by_no_others) {
+  InsertionGrid grid(packing::Box{{-2, -2, -2}, {2, 2, 2}}, 1);
+  grid.add_obstacle({{-1.15, 0, 0}, 1});
+  grid.add_obstacle({{1.15, 0, 0}, 1});  // 0.3 between their surfaces
+  EXPECT_TRUE(grid.reachable({0, 0, 0}, 0.14));
+  EXPECT_FALSE(grid.reachable({0, 0, 0}, 0.2));
+  EXPECT_FALSE(grid.reachable({0.1, 0, 0}, 0.2));
+  EXPECT_TRUE(grid.reachable({0, 0.9, 0}, 0.2)) << "where the two have curved away";
+  EXPECT_TRUE(grid.reachable({-0.5, 0.8, 0}, 0.2)) << "at the surface of one";
+  EXPECT_LE(grid.clearance(Ball{{0, 0, 0}, 0.2}, -0.5), -1) << "a quarter of its radius into either";
+  EXPECT_GE(grid.clearance(Ball{{0, 0, 0}, 0.155}, -0.5), -0.1) << "a thirtieth";
+}
+
+/// Two columns nearer to one another than an element is wide.
+packing::Packing around_two_columns() {
+  packing::Request request = packing::cube(1500);
+  for (int k = 0; k < 20; ++k)
+    for (const Real y : {0.32, 0.68}) {
+      request.around.position.push_back({0.5, y, (k + 0.5) / 20});
+      request.around.radius.push_back(0.16);
+    }
+  return packing::filled(request, {.bulk = true});
+}
+
+TEST(Crevices, do_not_make_all_elements_shrink_nor_are_they_filled) {
+  const packing::Packing p = around_two_columns();
+  const packing::PackingReport r = packing::report(p);
+  EXPECT_EQ(r.count, 1500u);
+  EXPECT_EQ(r.around.inside, 0u);
+  EXPECT_LE(r.max_overlap, 1e-7);
+  EXPECT_GE(r.near.bulk, 6.1);
+  EXPECT_GE(r.density_bulk, 0.6);
+  EXPECT_GE(r.min_radius, 0.6 * r.mean_radius) << "what is lodged is small, but not tiny";
+  EXPECT_GT(r.around.touching, 100u);
 }
 
 TEST(PairLists, follow_their_elements_when_rows_change_places) {
