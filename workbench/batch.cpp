@@ -86,8 +86,8 @@ std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector
   for (const BatchRun& run : runs)
     if (const auto [twin, is_new] = by_folder.emplace(run.name, &run); !is_new)
       throw DeckFailure(fmt::format(
-          "error: the runs with {} and with {} would write the same folder, '{}': give values whose names differ in "
-          "letters and digits",
+          "error: the runs with {} and with {} would write the same folder, '{}': give values, and decks, whose names "
+          "differ in letters and digits",
           shell_quoted(twin->second->title), shell_quoted(run.title), (fs::path(arguments.out) / run.name).string()));
   return runs;
 }

@@ -34,7 +34,8 @@ void add_curve(const fs::path& file, Results& results) {
   constexpr std::uintmax_t longest = std::uintmax_t{1} << 31;
   const report::Table table = report::parse_table(read_text(file, longest));
   const Json sidecar = bounded_object(fs::path(file).replace_extension(".json"));
-  if (sidecar.contains("kind") && sidecar["kind"] == "ledger") return;  // its end stands in the summary
+  if (sidecar.contains("kind") && sidecar["kind"] == "ledger") return;     // its end stands in the summary
+  if (sidecar.contains("kind") && sidecar["kind"] == "histogram") return;  // its last row is no end
   for (const report::Column& column : table.columns) {
     if (column.is_reference()) continue;
     if (column.unit == "N") {

@@ -185,7 +185,8 @@ std::string not_needed(const Scene& scene) {
     if (absent) text += "  " + what + "\n";
   };
   bool fails = false;
-  for (const Stage& stage : scene.stages) fails |= !stage.failures.empty();
+  for (const Stage& stage : scene.stages)
+    for (const Failure* failure : stage.failures) fails |= failure->judges();
   say(!scene.domain->elements().find("orientation"), "rotations: nobody reads orientations or adds torques");
   say(!scene.has_contacts(), "search for neighbours: no law acts between elements that are not bonded");
   say(scene.section_readers.empty(), "forces and moments of single bonds: nobody reads them");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <string_view>
 
 namespace beadwork {
 
@@ -22,5 +23,8 @@ class Random {
   double spare_ = 0;
   bool has_spare_ = false;
 };
+
+/// A stream of its own for each name (Fowler, Noll and Vo).
+std::uint64_t stream_of(std::string_view name);
 
 }  // namespace beadwork

@@ -9,10 +9,10 @@ namespace beadwork {
 
 namespace {
 
-std::unordered_set<Index> broken_by(const Domain& domain, const BondTable& table, std::int64_t when) {
+std::unordered_set<Index> broken_later(const Domain& domain, const BondTable& table, std::int64_t when) {
   std::unordered_set<Index> ids;
   for (const Break& b : domain.breaks().breaks)
-    if (b.step <= when && domain.families()[static_cast<std::size_t>(b.family)] == &table) ids.insert(b.bond);
+    if (b.step > when && domain.families()[static_cast<std::size_t>(b.family)] == &table) ids.insert(b.bond);
   return ids;
 }
 
@@ -22,9 +22,9 @@ std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const
   Joined body(domain.size());
   for (const BondTable* table : tables) {
     if (table->is_of_contacts()) continue;  // what touches does not hang together
-    const auto broken = broken_by(domain, *table, when);
+    const auto later = broken_later(domain, *table, when);
     for (Index b = 0; b < table->size(); ++b) {
-      if (broken.contains(table->id()[b])) continue;
+      if (table->state()[b] == State::broken && !later.contains(table->id()[b])) continue;
       body.join(table->first()[b], table->second()[b]);
     }
   }

@@ -10,7 +10,7 @@
 namespace beadwork {
 
 /// For each element the lowest row of the body that it belongs to: itself where no bond holds it. Bonds of `tables`
-/// count, as they stood after step `when` (the break log tells which were broken by then).
+/// count, as they stood after step `when` (the break log tells which have broken since).
 std::vector<Index> bodies(const Domain& domain, std::span<const BondTable* const> tables, std::int64_t when);
 
 /// The members of a set that are no debris: single elements, and bodies of less than a hundredth of the elements of the

@@ -8,9 +8,6 @@
 
 namespace beadwork {
 
-/// Mode of bonds that were broken from the start: flaws, not breaks.
-inline constexpr const char* flaw_mode = "defect";
-
 struct Break {
   Real time = 0;  ///< [s]
   std::int64_t step = 0;

@@ -186,11 +186,14 @@ std::map<std::string, std::string> FrameReader::meta() const {
   return out;
 }
 
-std::map<std::string, std::vector<std::int64_t>> FrameReader::sets() const {
+std::map<std::string, std::vector<std::int64_t>> FrameReader::sets() const { return ids_in("sets"); }
+std::map<std::string, std::vector<std::int64_t>> FrameReader::pairs() const { return ids_in("pairs"); }
+
+std::map<std::string, std::vector<std::int64_t>> FrameReader::ids_in(const char* name_of_group) const {
   const h5::Silence silence;
   std::map<std::string, std::vector<std::int64_t>> out;
-  if (!has(file_->handle.id(), "sets")) return out;
-  const Handle group = h5::open_group(file_->handle.id(), "sets");
+  if (!has(file_->handle.id(), name_of_group)) return out;
+  const Handle group = h5::open_group(file_->handle.id(), name_of_group);
   for (const std::string& name : h5::names_in(group.id())) out[name] = h5::read_integers(group.id(), name);
   return out;
 }

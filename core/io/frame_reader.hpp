@@ -76,8 +76,11 @@ class FrameReader {
   std::map<std::string, std::string> meta() const;
   /// Named sets of element ids: /sets/<name>, empty where there are none.
   std::map<std::string, std::vector<std::int64_t>> sets() const;
+  /// Listed neighbours, two ids each: /pairs/<name>, empty where there are none.
+  std::map<std::string, std::vector<std::int64_t>> pairs() const;
 
  private:
+  std::map<std::string, std::vector<std::int64_t>> ids_in(const char* group) const;
   struct File;
   std::unique_ptr<File> file_;
   std::vector<FrameHead> frames_;

@@ -17,10 +17,27 @@ namespace beadwork {
 
 namespace {
 
-std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::FrameReader& reader,
-                                                              const record::Frame& frame) {
-  std::unordered_map<std::int64_t, std::size_t> place;
+using Places = std::unordered_map<std::int64_t, std::size_t>;  // of ids in a frame
+
+Places places_of(const record::Frame& frame) {
+  Places place;
   for (std::size_t k = 0; k < frame.id.size(); ++k) place.emplace(frame.id[k], k);
+  return place;
+}
+
+std::map<std::string, std::vector<std::pair<std::size_t, std::size_t>>> recorded_pairs(
+    const record::FrameReader& reader, const Places& place) {
+  std::map<std::string, std::vector<std::pair<std::size_t, std::size_t>>> pairs;
+  for (const auto& [name, ids] : reader.pairs())
+    for (std::size_t k = 0; k + 1 < ids.size(); k += 2) {
+      const auto one = place.find(ids[k]), other = place.find(ids[k + 1]);
+      if (one != place.end() && other != place.end() && one != other)
+        pairs[name].push_back(std::minmax(one->second, other->second));
+    }
+  return pairs;
+}
+
+std::map<std::string, std::vector<std::size_t>> recorded_sets(const record::FrameReader& reader, const Places& place) {
   std::map<std::string, std::vector<std::size_t>> sets;
   for (const auto& [name, ids] : reader.sets()) {
     auto& members = sets[name];
@@ -53,8 +70,9 @@ StoredPacking first_frame(const std::filesystem::path& file) {
     throw DeckFailure(fmt::format("error: {} holds no frame to take a packing from", file.string()));
   record::Frame frame = reader.read(reader.frames().front());
   leave_out_walls(frame);
-  auto sets = recorded_sets(reader, frame);
-  StoredPacking packing{std::move(frame.position), std::move(frame.radius), std::move(sets)};
+  const Places place = places_of(frame);
+  StoredPacking packing{std::move(frame.position), std::move(frame.radius), recorded_sets(reader, place),
+                        recorded_pairs(reader, place)};
   for (std::size_t k = 0; k < packing.radius.size(); ++k)
     if (!packing.position[k].allFinite() || !std::isfinite(packing.radius[k]) || packing.radius[k] <= 0)
       throw DeckFailure(fmt::format(
@@ -116,6 +134,12 @@ StoredPacking part_of(const StoredPacking& packing, const std::string& set, cons
     for (const std::size_t k : others)
       if (const auto here = place.find(k); here != place.end()) kept.push_back(here->second);
   }
+  for (const auto& [name, list] : packing.pairs)
+    for (const auto& [first, second] : list) {
+      const auto one = place.find(first), other = place.find(second);
+      if (one != place.end() && other != place.end())
+        part.pairs[name].push_back(std::minmax(one->second, other->second));
+    }
   return part;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/failure.hpp"
@@ -21,6 +22,8 @@ struct StoredPacking {
   std::vector<Vec3> position;
   std::vector<Real> radius;
   std::map<std::string, std::vector<std::size_t>> sets = {};  ///< which elements, ascending
+  /// Listed neighbours, by the name of their set.
+  std::map<std::string, std::vector<std::pair<std::size_t, std::size_t>>> pairs = {};
   std::vector<std::string> warnings = {};
 };
 

@@ -56,6 +56,7 @@ class Assembly {
   void check_derived();
   void check_judged();
   void check_flawed();
+  void check_neighbours();
   void check_name(const ParamBase& param, const std::string& name);
   std::vector<const Watcher*> watchers() const;
   void check_files();

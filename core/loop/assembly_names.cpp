@@ -9,6 +9,15 @@
 
 namespace beadwork {
 
+namespace {
+
+bool names(const Failure& failure, const std::string& family) {
+  const std::vector<std::string> families = failure.families();
+  return std::find(families.begin(), families.end(), family) != families.end();
+}
+
+}  // namespace
+
 std::set<std::string> Assembly::made_names(Role role, const std::string& what) {
   std::map<std::string, Location> made;
   std::set<std::string> names;
@@ -129,29 +138,44 @@ void Assembly::check_judged() {
                             fmt::format("'of' names the contacts \"{}\": bonds break, contacts do not", family));
 }
 
-// What is broken from the start is broken when its bonds are made.
+// What is broken from the start is so when its bonds are made, and does nothing more.
 void Assembly::check_flawed() {
   for (const auto& plugin : scene_.plugins) {
     const auto* failure = as_kind<Failure>(std::as_const(*plugin));
     if (!failure || failure->judges()) continue;
-    const std::vector<std::string> families = failure->families();
-    for (const Stage& stage : scene_.stages)
-      for (const BondLaw* law : stage.laws)
-        if (std::find(families.begin(), families.end(), law->family()) != families.end() &&
-            scene_.first_stage(*law) < scene_.first_stage(*failure)) {
-          complaints_.error(
-              failure->of.at(law->family()),
-              fmt::format("bonds '{}' are made in stage '{}', before <{}> stands: what is broken from the "
-                          "start has to stand where they are made",
-                          law->family(), scene_.stages[scene_.first_stage(*law)].name, failure->tag()));
-          return;
-        }
+    for (const auto& other : scene_.plugins) {
+      const auto* law = as_kind<BondLaw>(std::as_const(*other));
+      if (!law || !names(*failure, law->family())) continue;
+      const Location& at = failure->of.at(law->family());
+      const Stage& stage = scene_.stages[scene_.first_stage(*law)];
+      if (std::find(stage.failures.begin(), stage.failures.end(), failure) == stage.failures.end())
+        complaints_.error(at,
+                          fmt::format("bonds '{}' are made in stage '{}', where <{}> does not stand: what is broken "
+                                      "from the start has to stand where they are made",
+                                      law->family(), stage.name, failure->tag()));
+      if (law->acts_when_broken())
+        complaints_.error(at, fmt::format("'{}' cannot be broken from the start, as these contacts still act when they "
+                                          "are broken; leave some out with their 'where'",
+                                          law->family()));
+    }
+  }
+}
+
+void Assembly::check_neighbours() {
+  for (const auto& plugin : scene_.plugins) {
+    const auto* law = as_kind<BondLaw>(std::as_const(*plugin));
+    if (law && law->neighbours.given() && *law->neighbours == "nearest" && law->between.given() &&
+        (*law->between)[0] == (*law->between)[1])
+      complaints_.error(
+          law->neighbours.at(),
+          "neighbours=\"nearest\" is for two sets: of each element of the second the nearest of the first");
   }
 }
 
 void Assembly::check_names() {
   check_judged();
   check_flawed();
+  check_neighbours();
   check_derived();
   check_uses_of(Role::set, "set", made_names(Role::makes_set, "set"));
   check_uses_of(Role::family, "bond family", made_names(Role::makes_family, "bond family"));

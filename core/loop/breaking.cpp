@@ -5,36 +5,33 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/base/failure.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/loop/blame.hpp"
 #include "core/loop/handed_over.hpp"
 
 namespace beadwork {
 
-void Breaking::break_flaws() {
+void Breaking::break_flaws(const Log& log) {
   for (const auto& [law, table] : state_.laws) {
     if (table->is_of_contacts() || state_.scene.first_stage(*law) != state_.stage_number()) continue;
     for (Failure* failure : state_.stage().failures)
       if (const auto of = failure->families(); std::find(of.begin(), of.end(), table->name()) != of.end())
-        break_flaws_of(*table, *law, *failure);
+        break_flaws_of(*table, *failure, log);
   }
 }
 
-void Breaking::break_flaws_of(BondTable& table, const PairLaw& law, Failure& failure) {
+// They are no breaks, and no reader of the log takes them for one.
+void Breaking::break_flaws_of(BondTable& table, Failure& failure, const Log& log) {
   const auto rows =
       blaming(failure, state_.moment, [&] { return failure.flaws(state_.domain(), table, state_.scene.seed); });
   check_rows(rows, table.size(), "flaws", failure, state_.moment);
-  if (!rows.empty() && law.acts_when_broken())
-    refuse(failure.of.at(table.name()),
-           fmt::format("'{}' cannot be broken from the start: contacts of an interface still act when they are broken; "
-                       "leave some out with their 'where'",
-                       table.name()));
   for (const Index row : rows) {
-    if (table.state()[row] == State::broken) continue;
-    note(table, row, flaw_mode, 0);
     table.state()[row] = State::broken;
+    note_distance(table, row);
   }
+  if (!failure.judges())
+    log.say(fmt::format("{}: {} of the {} bonds of '{}' are broken from the start", failure.tag(), rows.size(),
+                        table.size(), table.name()));
   table.sweep();
 }
 
@@ -76,12 +73,19 @@ void Breaking::end(PairLaw& law, BondTable& table, std::span<const BondEvent> ev
   count_live();
 }
 
-// From here on it takes part in nothing: what it has dissipated, and what it still stores, is booked as released.
+// From here on it takes part in nothing: what it has dissipated, and what it still stores, is booked as released. The two
+// touch as any others do, also where the contact has held them pressed.
 void Breaking::leave(PairLaw& law, BondTable& table, const BondEvent& event) {
   state_.released_by(table) +=
       event.energy + blaming(law, state_.moment, [&] { return law.stored_energy(state_.domain(), table, event.row); });
   blaming(law, state_.moment, [&] { law.withdraw(state_.domain(), table, event.row); });
   offered_.clear(table, event.row);
+  if (Column* broke_at = table.rows().find(field::broke_at.name)) {
+    const auto radius = state_.domain().elements().column("radius").view<Real>();
+    const Real touch = radius[table.first()[event.row]] + radius[table.second()[event.row]];
+    const auto distance = broke_at->view<Real>();
+    distance[event.row] = std::max<Real>(distance[event.row], touch);
+  }
 }
 
 void Breaking::judge() {
@@ -182,6 +186,12 @@ void Breaking::note(BondTable& table, Index row, const std::string& mode, Real e
   BreakLog& log = state_.domain().breaks();
   log.breaks.push_back({state_.moment.time, state_.moment.step, state_.number_of(table), table.id()[row],
                         log.mode(mode), place, energy, element});
+  note_distance(table, row);
+}
+
+// Where it touches from then on.
+void Breaking::note_distance(BondTable& table, Index row) {
+  const auto x = state_.domain().elements().column("position").view<Vec3>();
   if (Column* broke_at = table.rows().find(field::broke_at.name))
     broke_at->view<Real>()[row] = (x[table.second()[row]] - x[table.first()[row]]).norm();
 }

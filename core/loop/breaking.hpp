@@ -17,7 +17,7 @@ class Breaking {
   void begin_stage() { count_live(); }
   /// Of the families that are made in this stage, what is broken from the start. Nothing has pulled at it: no energy is
   /// released, and there is no force to be taken off.
-  void break_flaws();
+  void break_flaws(const Log& log);
   /// Whether a criterion judges at this step.
   bool is_due() const;
   /// Changes that a law itself has made while settling, such as a contact that opened. What it carried was part of the
@@ -34,7 +34,7 @@ class Breaking {
  private:
   /// What a criterion lets fall.
   using Fallen = std::pair<Failure*, std::vector<Judged>>;
-  void break_flaws_of(BondTable& table, const PairLaw& law, Failure& failure);
+  void break_flaws_of(BondTable& table, Failure& failure, const Log& log);
   void end(PairLaw& law, BondTable& table, std::span<const BondEvent> events);
   void leave(PairLaw& law, BondTable& table, const BondEvent& event);
   std::vector<Fallen> fallen();
@@ -43,6 +43,7 @@ class Breaking {
   void fell_bond(Failure& failure, BondTable& table, Index row, Index element);
   void fell_element(Failure& failure, Index row);
   void note(BondTable& table, Index row, const std::string& mode, Real energy, Index element = -1);
+  void note_distance(BondTable& table, Index row);
   void count_live();
 
   RunState& state_;

@@ -58,6 +58,12 @@ Candidates candidates(const PairLaw& law, const Domain& domain, const Find& find
 void keep_nearest(const BondLaw& law, const Domain& domain, Candidates& among) {
   const std::vector<char> one = membership(domain, (*law.between)[0]);
   const auto id = domain.elements().column("id").view<Index>();
+  for (const Index row : domain.set((*law.between)[1]))
+    if (one[static_cast<std::size_t>(row)])
+      refuse(law.between.at(),
+             fmt::format("element {} is in both sets: neighbours=\"nearest\" wants two that have none "
+                         "in common",
+                         id[row]));
   struct Best {
     Real distance;
     Index other;
@@ -66,7 +72,7 @@ void keep_nearest(const BondLaw& law, const Domain& domain, Candidates& among) {
   std::map<Index, Best> best;  // by the element of the second set
   for (std::size_t p = 0; p < among.pairs.size(); ++p) {
     const auto i = static_cast<std::size_t>(among.pairs[p].i), j = static_cast<std::size_t>(among.pairs[p].j);
-    const Real distance = (among.position[j] - among.position[i]).norm() - among.radius[i] - among.radius[j];
+    const Real distance = (among.position[j] - among.position[i]).norm() - (among.radius[i] + among.radius[j]);
     const bool first_is_one = one[static_cast<std::size_t>(among.row(among.pairs[p].i))];
     const Index other = first_is_one ? among.row(among.pairs[p].i) : among.row(among.pairs[p].j);
     const Index element = first_is_one ? among.row(among.pairs[p].j) : among.row(among.pairs[p].i);
@@ -88,18 +94,33 @@ const PairList* listed_pairs(const BondLaw& law, const Domain& domain) {
   return (*law.between)[0] == (*law.between)[1] && found != domain.pairs().end() ? &found->second : nullptr;
 }
 
+/// Members of the set that stand in no pair of its list.
+std::ptrdiff_t unlisted(const BondLaw& law, const Domain& domain) {
+  std::vector<char> listed(static_cast<std::size_t>(domain.size()), 0);
+  for (const auto& [first, second] : *listed_pairs(law, domain))
+    listed[static_cast<std::size_t>(first)] = listed[static_cast<std::size_t>(second)] = 1;
+  const Set& set = domain.set((*law.between)[0]);
+  return std::count_if(set.begin(), set.end(), [&](Index row) { return !listed[static_cast<std::size_t>(row)]; });
+}
+
 std::string neighbours_of(const BondLaw& law, const Domain& domain) {
-  if (!law.neighbours.given()) return listed_pairs(law, domain) ? "listed" : "all";
+  if (!law.neighbours.given()) return listed_pairs(law, domain) && unlisted(law, domain) == 0 ? "listed" : "all";
   if (*law.neighbours == "listed" && !listed_pairs(law, domain))
     refuse(
         law.neighbours.at(),
         fmt::format("no neighbours are listed of '{}' and '{}': that is done by fillings that make fibres, of the one "
                     "set that they make",
                     (*law.between)[0], (*law.between)[1]));
-  if (*law.neighbours == "nearest" && (*law.between)[0] == (*law.between)[1])
-    refuse(law.neighbours.at(),
-           "neighbours=\"nearest\" is for two sets: of each element of the second the nearest of the first");
   return *law.neighbours;
+}
+
+void mind_unlisted(const BondLaw& law, const Domain& domain, const Log& log) {
+  const auto without = unlisted(law, domain);
+  if (without > 0)
+    log.warn(
+        fmt::format("{}: {} elements of set '{}' are in no list of neighbours, and have no bond of family '{}': "
+                    "neighbours=\"all\" or \"next\" bonds by distance",
+                    law.at().where(), without, (*law.between)[0], *law.name));
 }
 
 Candidates listed_ones(const BondLaw& law, const Domain& domain) {
@@ -137,6 +158,7 @@ Candidates near_ones(const BondLaw& law, const Domain& domain, const Pause& paus
 /// does not.
 void mind_far_ones(const BondLaw& law, const Domain& domain, Candidates& among, const Pause& pause, const Log& log) {
   const std::string which = neighbours_of(law, domain);
+  if (which == "listed") mind_unlisted(law, domain, log);
   if (which == "nearest" || which == "listed") return;
   const std::vector<Index> between = elements_between(among.position, among.radius, among.pairs, pause);
   const auto far = std::count_if(between.begin(), between.end(), [](Index k) { return k >= 0; });

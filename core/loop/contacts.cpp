@@ -69,7 +69,9 @@ void Contacts::begin_stage() {
   std::map<const ContactLaw*, Pairs> before;
   for (const ContactLaw* law : state_.stage().contacts)
     before[law] = pairs_of(*state_.domain().find_family(law->family()));
+  begins_ = true;
   search();
+  begins_ = false;
   warn_of_two_laws();
   warn_of_deep_starts(before);
 }
@@ -312,9 +314,12 @@ void Contacts::meet_and_part(ContactLaw& law, BondTable& table, const Pairs& bon
           "{}: error: elements {} and {} stand at one place, where contacts '{}' have no direction to push in",
           law.at().where(), id[i], id[j], law.family()));
     length[row] = radius[i] + radius[j];
-    if (const auto found = broken.find({i, j}); found != broken.end())
-      length[row] = std::min<Real>(length[row], found->second);
+    const auto found = broken.find({i, j});
+    if (found != broken.end()) length[row] = std::min<Real>(length[row], found->second);
     blaming(law, state_.moment, [&] { law.meet(domain, table, row); });
+    // Within a stage only what a bond has left pressed overlaps from the start; what that had stored is booked as released.
+    if (found != broken.end() && !begins_)
+      state_.released_by(table) += -blaming(law, state_.moment, [&] { return law.stored_energy(domain, table, row); });
   }
 }
 

@@ -40,6 +40,7 @@ class Contacts {
   RunState& state_;
   const Log& log_;
   std::vector<Index> chain_;  ///< of each element that is part of a fibre, else -1; empty where there are none
+  bool begins_ = false;       ///< the search at the start of a stage is on
   Real narrowest_ = 0;        ///< half of the narrowest skin of the stage [m]
 };
 

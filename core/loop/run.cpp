@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/failure.hpp"
 #include "core/base/parallel.hpp"
 #include "core/loop/blame.hpp"
@@ -90,7 +92,7 @@ void Run::begin_stage() {
   fresh_.begin_stage();
   if (now.step == 0 && now.stage == 0) fresh_.derive_all();  // where all begins
   connect(state_, options_.log);
-  breaking_.break_flaws();
+  breaking_.break_flaws(options_.log);
   contacts_.begin_stage();
   prepare_stage(false);
   balance_.begin_stage();
@@ -177,7 +179,9 @@ void Run::evaluate(bool settle) {
 }
 
 Real Run::utilisation() {
-  if (state_.stage().failures.empty()) return 0;
+  const auto& failures = state_.stage().failures;
+  if (std::none_of(failures.begin(), failures.end(), [](const Failure* failure) { return failure->judges(); }))
+    return 0;
   fresh_.begin_step();
   fresh_.outdate();
   forces_.evaluate(false, offered_.is_read());

@@ -6,6 +6,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/domain/flaws.hpp"
 #include "core/loop/json_text.hpp"
 #include "core/plugin/blame.hpp"
 #include "core/version.hpp"
@@ -73,14 +74,23 @@ Json utilisation(const RunState& state, const RunFigures& figures) {
   return all;
 }
 
-// Of each family the bond that broke first, and how; what was broken from the start did not break.
+// Bonds that were broken from the start, by family.
+Json defects(const Domain& domain) {
+  Json all = Json::object();
+  for (const BondTable* family : domain.families())
+    if (const Index count = family->is_of_contacts() ? 0 : flaws(domain, *family); count > 0)
+      all[family->name()] = count;
+  return all;
+}
+
+// Of each family the bond that broke first, and how.
 Json first_breaks(const Domain& domain) {
   Json all = Json::object();
   const BreakLog& log = domain.breaks();
   for (const Break& b : log.breaks) {
     const std::string& mode = log.modes[static_cast<std::size_t>(b.mode)];
     const std::string& family = domain.families()[static_cast<std::size_t>(b.family)]->name();
-    if (mode == flaw_mode || all.contains(family)) continue;
+    if (all.contains(family)) continue;
     all[family] = {{"mode", mode},
                    {"step", b.step},
                    {"time", b.time},
@@ -140,6 +150,7 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   for (const Break& b : log.breaks)
     json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]] =
         json["breaks"][log.modes[static_cast<std::size_t>(b.mode)]].get<int>() + 1;
+  if (Json found = defects(domain); !found.empty()) json["defects"] = std::move(found);
   if (!log.breaks.empty()) json["first_breaks"] = first_breaks(domain);
   json["utilisation"] = utilisation(state, figures);
   json["packing"] = Json::array();

@@ -50,6 +50,7 @@ void read(const Domain& domain, BondTable* table, const std::vector<Stretch>& st
 
 Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const char> held) {
   const std::string& name = failure.utilisation.field().name;
+  const bool some_spared = failure.spares_some();
   Verdict all;
   std::vector<Stretch> stretches;
   if (failure.judges_elements()) {
@@ -57,7 +58,7 @@ Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const cha
     for (Index row = 0; row < domain.size(); row += 1024)
       stretches.push_back({row, std::min(row + 1024, domain.size())});
     const auto use_of = [&](Index row) {
-      if (!held[static_cast<std::size_t>(row)] || failure.spares(row)) utilisation[row] = 0;
+      if (!held[static_cast<std::size_t>(row)] || (some_spared && failure.spares(row))) utilisation[row] = 0;
       return Real(utilisation[row]);
     };
     read(domain, nullptr, stretches, use_of, all);
@@ -69,7 +70,7 @@ Verdict read_verdict(const Failure& failure, Domain& domain, std::span<const cha
     for (const Chunk& chunk : table->chunks()) stretches.push_back({chunk.begin, chunk.live_end});
     const auto utilisation = table->rows().column(name).view<Real>();
     const auto use_of = [&](Index row) {
-      if (failure.spares(*table, row)) utilisation[row] = 0;
+      if (some_spared && failure.spares(*table, row)) utilisation[row] = 0;
       return Real(utilisation[row]);
     };
     read(domain, table, stretches, use_of, all);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "core/base/random.hpp"
@@ -57,36 +58,27 @@ class Cells {
   std::vector<std::vector<std::size_t>> members_;
 };
 
-[[noreturn]] void refuse(const Discs& q, Real reached) {
-  std::ostringstream out;
-  out << q.count << " fibres whose centres are to be " << q.distance << " apart do not fit: " << reached
-      << " was reached, at which about " << static_cast<std::size_t>(Real(q.count) * std::pow(reached / q.distance, 2))
-      << " would; ask for fewer, or for a smaller gap";
-  throw PackingFailure(out.str());
-}
-
-/// The area that discs claim of the rectangle widened by half their distance: more than the hexagonal packing's share
-/// fits nowhere.
-void check(const Discs& q) {
+/// More than the hexagonal packing's share of the rectangle widened by half their distance fits nowhere.
+std::size_t upper_bound(const Discs& q) {
   const Place extent = q.high - q.low;
-  if (!(extent.minCoeff() >= 0))
-    throw std::invalid_argument("the box is too narrow across the fibres: they do not fit in beside its margin");
   const Real room = (extent[0] + q.distance) * (extent[1] + q.distance);
   const Real densest = std::numbers::pi / std::sqrt(Real(12));
-  const Real most = densest * room / (std::numbers::pi / 4 * q.distance * q.distance);
-  if (Real(q.count) > most) refuse(q, q.distance * std::sqrt(most / Real(q.count)));
+  return static_cast<std::size_t>(densest * room / (std::numbers::pi / 4 * q.distance * q.distance));
 }
 
-}  // namespace
-
-std::vector<Place> place_discs(const Discs& q) {
-  check(q);
+/// Nothing where they find no room.
+std::optional<std::vector<Place>> placed(const Discs& q) {
   Random random(q.seed, 7);
-  const auto anywhere = [&] { return Place(random.uniform(q.low[0], q.high[0]), random.uniform(q.low[1], q.high[1])); };
+  // One number after the other: which of two arguments is evaluated first, no standard says.
+  const auto draw = [&](const Place& low, const Place& high) {
+    Place x;
+    for (int a = 0; a < 2; ++a) x[a] = random.uniform(low[a], high[a]);
+    return x;
+  };
   std::vector<Place> at;
   Cells cells(q);
   for (std::size_t k = 0; k < q.count; ++k) {
-    at.push_back(anywhere());
+    at.push_back(draw(q.low, q.high));
     cells.add(k, at.back());
   }
   const auto least_distance = [&] {
@@ -96,11 +88,11 @@ std::vector<Place> place_discs(const Discs& q) {
   };
   Real apart = least_distance(), stride = (q.high - q.low).maxCoeff() / 4;
   for (int sweep = 0, after = 0; after < stirring; ++sweep) {
-    if (sweep == most_sweeps) refuse(q, apart);
+    if (sweep == most_sweeps) return std::nullopt;
     q.pause();
     std::size_t moved = 0;
     for (std::size_t k = 0; k < q.count; ++k) {
-      const Place to = at[k] + stride * Place(random.uniform(-1, 1), random.uniform(-1, 1));
+      const Place to = at[k] + stride * draw({-1, -1}, {1, 1});
       if ((to - q.low).minCoeff() < 0 || (q.high - to).minCoeff() < 0) continue;
       if (cells.nearest(k, to, at) < apart * apart) continue;
       cells.move(k, at[k], to);
@@ -114,6 +106,29 @@ std::vector<Place> place_discs(const Discs& q) {
     after = apart < q.distance ? 0 : after + 1;
   }
   return at;
+}
+
+/// The most that were placed, by halving the range.
+std::size_t most_placed(Discs q) {
+  std::size_t fit = 1, too_many = std::min(q.count, upper_bound(q) + 1);
+  while (too_many - fit > 1) {
+    q.count = (fit + too_many) / 2;
+    (placed(q) ? fit : too_many) = q.count;
+  }
+  return fit;
+}
+
+}  // namespace
+
+std::vector<Place> place_discs(const Discs& q) {
+  if (!((q.high - q.low).minCoeff() >= 0))
+    throw std::invalid_argument("the box is too narrow across the fibres: they do not fit in beside its margin");
+  if (q.count <= upper_bound(q))
+    if (auto places = placed(q)) return *places;
+  std::ostringstream out;
+  out << q.count << " fibres whose centres are to be " << q.distance << " apart do not fit: " << most_placed(q)
+      << " do; ask for so many, or for a smaller gap";
+  throw PackingFailure(out.str());
 }
 
 }  // namespace beadwork::packing

@@ -20,7 +20,7 @@ struct CurvePlan {
   std::string title = {};
   std::string x = {};  ///< column on the abscissa; empty is time
   std::vector<std::string> y = {};
-  std::string kind = {};  ///< "ledger" for an energy balance
+  std::string kind = {};  ///< "ledger" for an energy balance, "histogram" for classes
 };
 
 /// Where rows go. The first row of a curve opens its file, and what its plan says from then on is not heard.

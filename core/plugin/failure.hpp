@@ -41,7 +41,9 @@ class Failure : public Plugin {
 
   /// Told at the start of a stage: which elements are in the sets of 'except'.
   void note_spared(const Domain& domain);
-  bool spares(Index element) const { return !spared_.empty() && spared_[static_cast<std::size_t>(element)]; }
+  bool spares_some() const { return !spared_.empty(); }
+  /// To be asked only where it spares some.
+  bool spares(Index element) const { return spared_[static_cast<std::size_t>(element)]; }
   bool spares(const BondTable& table, Index row) const {
     return spares(table.first()[row]) && spares(table.second()[row]);
   }

@@ -232,6 +232,7 @@ class CohesiveContact final
       for (Index row = 0; row < table.size(); ++row) area[row] *= *interface_area / sum;
     if (carried()) set_normals(domain, table);
     tilt_ = carried() ? 0 : tilt_of_lines(domain, table);
+    for (const auto& family : domain.families()) may_meet_ |= family->is_of_contacts();
   }
 
   std::string remark() const override {
@@ -243,12 +244,18 @@ class CohesiveContact final
 
   std::string caution() const override {
     constexpr Real little = 10;  // degrees
-    if (*modes != "both" || !(tilt_ > little)) return "";
-    return fmt::format(
-        "its lines of centres lie {:.0f} degrees off their mean (rms): measured against them, contacts lock when the "
-        "interface is sheared and take more than their strength and energy; normal=\"plane\", or \"axis\" around a "
-        "fibre, gives them the interface's normal",
-        tilt_);
+    std::string all;
+    if (*broken == "leaves" && !may_meet_)
+      all =
+          "broken=\"leaves\" leaves its pairs to laws of <contact>, and there are none: what has failed may pass "
+          "through";
+    if (*modes == "both" && tilt_ > little)
+      all += fmt::format(
+          "{}its lines of centres lie {:.0f} degrees off {} (rms): measured against them, contacts lock when the "
+          "interface is sheared and take more than their strength and energy; normal=\"plane\", or \"axis\" around a "
+          "fibre, gives them the interface's normal",
+          all.empty() ? "" : "; ", tilt_, at_fibres_ ? "the fibres' radii" : "their mean");
+    return all;
   }
 
   void end(Domain& domain, BondTable& table, Index row) override {
@@ -327,8 +334,9 @@ class CohesiveContact final
 
   /// How far the lines of centres lie off the radius of a fibre, or off the one direction that they have in common (rms)
   /// [deg].
-  Real tilt_of_lines(const Domain& domain, const BondTable& table) const {
-    if (domain.pairs().contains((*between)[0])) {
+  Real tilt_of_lines(const Domain& domain, const BondTable& table) {
+    at_fibres_ = domain.pairs().contains((*between)[0]);
+    if (at_fibres_) {
       std::vector<std::pair<Index, Index>> contacts;
       for (Index row = 0; row < table.size(); ++row) contacts.emplace_back(table.first()[row], table.second()[row]);
       return InterfaceNormals::tilt_at_fibres(contacts, domain, (*between)[0]);
@@ -411,7 +419,9 @@ class CohesiveContact final
   }
 
   Real literal_area_ = 0;
-  Real tilt_ = 0;  // of the lines of centres, where they are the normals [deg]
+  bool may_meet_ = false;   // the deck has laws of contact
+  bool at_fibres_ = false;  // whose neighbours are listed
+  Real tilt_ = 0;           // of the lines of centres, where they are the normals [deg]
   std::string about_normals_;
 };
 

@@ -74,14 +74,16 @@ class InterfaceNormals {
     const auto position = domain.elements().column("position").view<Vec3>();
     const std::vector<Vec3> directions =
         directions_along(domain.set(set), domain.pairs().at(set), position, domain.size());
-    Real sum = 0;
+    Real sum = 0, counted = 0;
     for (const auto& [first, second] : contacts) {
-      const Vec3 line = (position[second] - position[first]).normalized();
-      const Vec3& one = directions[static_cast<std::size_t>(first)];
-      const Real along = line.dot(one.isZero() ? directions[static_cast<std::size_t>(second)] : one);
-      sum += along * along / static_cast<Real>(contacts.size());
+      const Vec3 &one = directions[static_cast<std::size_t>(first)],
+                 &other = directions[static_cast<std::size_t>(second)];
+      if (one.isZero() && other.isZero()) continue;  // a single element
+      const Real along = (position[second] - position[first]).normalized().dot(one.isZero() ? other : one);
+      sum += along * along;
+      counted += 1;
     }
-    return std::asin(std::sqrt(std::min<Real>(1, sum))) * 180 / std::numbers::pi;
+    return std::asin(std::sqrt(std::min<Real>(1, counted > 0 ? sum / counted : 0))) * 180 / std::numbers::pi;
   }
 
   /// In words, for the log.

@@ -35,12 +35,12 @@ class Defects final : public Failure {
   void choose() override { utilisation.want(false); }
   bool judges() const override { return false; }
   void judge(const Domain&) override {}
-  std::string mode() const override { return flaw_mode; }
+  std::string mode() const override { return "defect"; }
 
   std::vector<Index> flaws(const Domain&, const BondTable& table, std::uint64_t scene_seed) override {
     std::vector<Index> rows = candidates(table);
     const auto wanted = static_cast<std::size_t>(std::llround(*share * static_cast<Real>(rows.size())));
-    Random random(seed.given() ? static_cast<std::uint64_t>(*seed) : scene_seed, 11);
+    Random random(seed.given() ? static_cast<std::uint64_t>(*seed) : scene_seed, stream_of(id() + "/" + table.name()));
     if (cluster.given()) return in_clusters(table, rows, wanted, random);
     for (std::size_t k = 0; k < wanted; ++k) std::swap(rows[k], rows[k + below(rows.size() - k, random)]);
     rows.resize(wanted);
@@ -52,7 +52,7 @@ class Defects final : public Failure {
   std::vector<Index> candidates(const BondTable& table) const {
     std::vector<Index> rows;
     for (Index row = 0; row < table.size(); ++row)
-      if (!spares(table, row)) rows.push_back(row);
+      if (table.state()[row] != State::broken && !(spares_some() && spares(table, row))) rows.push_back(row);
     std::sort(rows.begin(), rows.end(), [&](Index a, Index b) { return table.id()[a] < table.id()[b]; });
     return rows;
   }

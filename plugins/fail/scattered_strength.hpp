@@ -35,17 +35,11 @@ class ScatteredStrength {
     std::vector<Index> order(static_cast<std::size_t>(rows));
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](Index a, Index b) { return id[a] < id[b]; });
-    Random random(seed, stream(criterion.id() + "/" + family));
+    Random random(seed, stream_of(criterion.id() + "/" + family));
     for (const Index row : order) factor_[row] = weibull_factor(*modulus_, random.uniform());
   }
 
  private:
-  /// A number of its own for each name (Fowler, Noll and Vo).
-  static std::uint64_t stream(const std::string& name) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    return hash;
-  }
   Param<Real> strength_;
   Param<Real> modulus_;
   Keeps<Real> factor_;

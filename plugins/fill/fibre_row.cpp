@@ -1,4 +1,4 @@
-#include "plugins/fill/beads.hpp"
+#include "plugins/fill/fibre_maker.hpp"
 
 namespace beadwork {
 
@@ -11,7 +11,7 @@ class FibreRow final : public FibreMaker {
 
   void fill(Domain& domain, const FillJob& job) override {
     if (!((*to - *from).norm() > 0)) refuse(to.at(), "'to' is the place of 'from': a fibre needs a direction");
-    const Row row = row_between(*from, *to);
+    const FibreLine row = row_between(*from, *to);
     require_room(domain, row.count);
     make(domain, {&row, 1});
     job.report(fmt::format(R"({{"set":"{}","step":"{}","elements":{},"fibres":1,{}}})", *set, tag(), row.count,

@@ -4,7 +4,7 @@
 #include "core/base/text.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/parallel_discs.hpp"
-#include "plugins/fill/beads.hpp"
+#include "plugins/fill/fibre_maker.hpp"
 
 namespace beadwork {
 
@@ -39,7 +39,7 @@ class Fibres final : public FibreMaker {
 
   void fill(Domain& domain, const FillJob& job) override {
     const std::vector<packing::Place> places = placed(job);
-    std::vector<Row> rows;
+    std::vector<FibreLine> rows;
     const int along = axis_number(), u = (along + 1) % 3, v = (along + 2) % 3;
     for (const packing::Place& place : places) {
       Vec3 start = *from, end = *from + *box;
@@ -71,8 +71,8 @@ class Fibres final : public FibreMaker {
       refuse(box.at(), refused.what());
     } catch (const packing::PackingFailure& failed) {
       refuse((number.given() ? static_cast<const ParamBase&>(number) : volume_fraction).at(),
-             fmt::format("{} (a volume fraction of {:.4g} of this box)", failed.what(),
-                         static_cast<Real>(discs.count) * fibre_section() / cross_section()));
+             fmt::format("{}; one fibre is a volume fraction of {:.4g} of this box", failed.what(),
+                         fibre_section() / cross_section()));
     }
   }
 
@@ -99,7 +99,7 @@ class Fibres final : public FibreMaker {
     return {least, sum / static_cast<Real>(places.size())};
   }
 
-  void tell(std::span<const packing::Place> places, const Row& row, const FillJob& job) const {
+  void tell(std::span<const packing::Place> places, const FibreLine& row, const FillJob& job) const {
     const Real share = static_cast<Real>(places.size()) * fibre_section() / cross_section();
     const bool several = places.size() > 1;
     const auto [least, mean] = several ? gaps(places) : std::pair<Real, Real>{0, 0};

@@ -79,14 +79,14 @@ class FreeFilling final : public ElementMaker {
     request.seed = own_seed(job.seed);
     request.pause = job.pause;
     request.tell = teller(job, *this, *set);
-    if (around.given()) {
-      require_fibres_inside(domain, request.region);
-      note_obstacles(domain, request.around);
-    }
+    const std::set<Index> obstacles = those_around(domain);
+    if (around.given()) require_fibres_inside(domain, request.region);
+    note_obstacles(domain, obstacles, request.around);
     guarded(*this, [&] {
       packing::Packing packing = packing::free_filling(request);
       for (const std::string& warning : packing.warnings) job.log.warn(warning);
       const Index first = add_spheres(domain, packing.position, packing.radius);
+      warn_of_others(domain, first, obstacles, job);
       job.log.say(fmt::format("{}: {} elements, {} still to be placed, {:.1f} s", tag(), packing.position.size(),
                               packing.waiting.size(), packing.seconds));
       const auto rows = static_cast<Index>(packing.position.size());
@@ -116,14 +116,34 @@ class FreeFilling final : public ElementMaker {
     return Random(seed, stream + static_cast<std::uint64_t>(*number)).bits() >> 11;
   }
 
-  void note_obstacles(const Domain& domain, packing::Obstacles& obstacles) const {
+  /// Elements that do not move. Sets may overlap.
+  std::set<Index> those_around(const Domain& domain) const {
+    std::set<Index> rows;
+    if (!around.given()) return rows;
+    for (const std::string& name : *around) {
+      if (!domain.sets().contains(name))
+        refuse(around.at(name), fmt::format("set '{}' is made only later: put what makes it in front of this", name));
+      rows.insert(domain.set(name).begin(), domain.set(name).end());
+    }
+    return rows;
+  }
+
+  static void note_obstacles(const Domain& domain, const std::set<Index>& rows, packing::Obstacles& obstacles) {
     const auto position = domain.elements().column("position").view<Vec3>();
     const auto radius = domain.elements().column("radius").view<Real>();
-    for (const std::string& name : *around)
-      for (const Index row : domain.set(name)) {
-        obstacles.position.push_back(position[row]);
-        obstacles.radius.push_back(radius[row]);
-      }
+    for (const Index row : rows) {
+      obstacles.position.push_back(position[row]);
+      obstacles.radius.push_back(radius[row]);
+    }
+  }
+
+  void warn_of_others(const Domain& domain, Index first, const std::set<Index>& known, const FillJob& job) const {
+    constexpr Real much = 0.01;  // of the sum of the radii
+    if (const Real into = deepest_into_others(domain, first, known, job.pause); into > much)
+      job.log.warn(
+          fmt::format("{}: elements of '{}' stand inside others that are there already, by up to {:.2g} of the sum "
+                      "of their radii: 'around' names sets that are to be packed around",
+                      at().where(), *set, into));
   }
 
   // Beyond the ends of a fibre the box may end; across it, there must be room for the solid around it.

@@ -62,6 +62,8 @@ class ReadPacking final : public ElementMaker {
     for (const std::string& warning : packing.warnings) job.log.warn(warning);
     const Index first = add_spheres(domain, packing.position, packing.radius);
     keep_sets(domain, packing, first, job);
+    keep_pairs(domain, packing, first, job);
+    warn_of_those_there(domain, first, job);
     packing::Packing whole = packing::packing_of(around(packing), spread_of(packing), packing.position, packing.radius);
     whole.pause = job.pause;
     whole.seconds = std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
@@ -69,6 +71,8 @@ class ReadPacking final : public ElementMaker {
   }
 
  private:
+  static constexpr Real deep = 0.05;  // overlap over the sum of the radii, beyond what relaxation leaves
+
   StoredPacking stored(const std::string& path, const Pause& pause) const {
     TextForm form;
     if (unit.given()) form.unit = *unit;
@@ -101,6 +105,30 @@ class ReadPacking final : public ElementMaker {
     }
   }
 
+  /// Neighbours along fibres, under the names that their sets have here.
+  void keep_pairs(Domain& domain, const StoredPacking& packing, Index first, const FillJob& job) {
+    for (const auto& [name, list] : packing.pairs) {
+      const bool all = of.given() && name == *of;
+      if (!all && std::find(sets->begin(), sets->end(), name) == sets->end()) continue;
+      job.log.warn(
+          fmt::format("{}: elements of the fibres '{}' are read as spheres, with the mass of such; read what is "
+                      "packed around them alone, and make fibres by <fibre-row> or <fibres>, where that matters",
+                      file.at().where(), name));
+      PairList& pairs = domain.pairs()[all ? *set : name];
+      for (const auto& [one, other] : list)
+        pairs.emplace_back(first + static_cast<Index>(one), first + static_cast<Index>(other));
+      std::sort(pairs.begin(), pairs.end());
+    }
+  }
+
+  void warn_of_those_there(const Domain& domain, Index first, const FillJob& job) const {
+    if (const Real into = deepest_into_others(domain, first, {}, job.pause); into > deep)
+      job.log.warn(
+          fmt::format("{}: elements of {} overlap some that are there already, by up to {:.2g} of the sum of "
+                      "their radii: they were not packed around these",
+                      file.at().where(), *file, into));
+  }
+
   const std::vector<std::size_t>& recorded(const StoredPacking& packing, const std::string& name) const {
     try {
       return members_of(packing, name, *file);
@@ -126,7 +154,6 @@ class ReadPacking final : public ElementMaker {
   }
 
   void tell(const packing::Packing& packing, const FillJob& job) const {
-    constexpr Real deep = 0.05;
     const auto report = packing::report(packing);
     job.report(packing_json(*set, tag(), report, PackingSource::file));
     job.log.say(fmt::format("{}: {} elements from {}, {}", tag(), report.count, *file, packing_words(report)));

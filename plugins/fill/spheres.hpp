@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
 #include <span>
 
 #include "core/base/failure.hpp"
 #include "core/base/memory.hpp"
+#include "core/domain/neighbours.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "core/mechanics/sphere.hpp"
 #include "core/plugin/kinds.hpp"
@@ -39,6 +42,26 @@ class SphereFiller : public Filler {
     Set& members = domain.sets()[set];
     for (Index row = first; row < domain.size(); ++row) members.push_back(row);
     return first;
+  }
+
+  /// Deepest overlap over the sum of the radii between elements from `first` on and those before it that are not `known`.
+  static Real deepest_into_others(const Domain& domain, Index first, const std::set<Index>& known, const Pause& pause) {
+    const auto position = domain.elements().column("position").view<Vec3>();
+    const auto radius = domain.elements().column("radius").view<Real>();
+    std::vector<Vec3> place;
+    std::vector<Real> size;
+    for (Index row = first; row < domain.size(); ++row) place.push_back(position[row]), size.push_back(radius[row]);
+    const std::size_t own = place.size();
+    for (Index row = 0; row < first; ++row)
+      if (!domain.walls().is_wall(row) && !known.contains(row))
+        place.push_back(position[row]), size.push_back(radius[row]);
+    Real deepest = 0;
+    if (place.size() == own) return deepest;
+    for (const Pair& near : find_pairs_around(place, size, own, 0, 0, pause)) {
+      const auto i = static_cast<std::size_t>(near.i), j = static_cast<std::size_t>(near.j);
+      if (j >= own) deepest = std::max(deepest, 1 - (place[j] - place[i]).norm() / (size[i] + size[j]));
+    }
+    return deepest;
   }
 
   /// Makes the rows from `first` on these spheres; their masses and moments of inertia follow from the density.

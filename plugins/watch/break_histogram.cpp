@@ -9,7 +9,7 @@ namespace beadwork {
 class BreakHistogram final : public Watcher {
  public:
   static constexpr const char* about =
-      "Histogram of the places of breaks along an axis: at each moment a row for each class; at=\"end\" gives one";
+      "Histogram of the places of breaks along an axis: at the end, and at each moment asked for, a row for each class";
   Param<std::vector<std::string>> of{
       this, {.name = "of", .doc = "Families of the bonds that are counted", .role = Role::family}};
   Param<std::string> axis{this,
@@ -24,7 +24,11 @@ class BreakHistogram final : public Watcher {
               {.columns = {{"place", "m"}, {"breaks", "1"}, {"share", "1"}},
                .title = "Breaks by place",
                .x = "place",
-               .y = {"breaks"}}};
+               .y = {"breaks"},
+               .kind = "histogram"}};
+
+  /// Where the deck gives no cadence, at the end alone: a histogram is not a course.
+  bool wants(const Moment& moment) const override { return every.in_deck() && Watcher::wants(moment); }
 
   void check(Complaints& complaints) const override {
     if (!(*to > *from)) complaints.error(to.at(), "'to' must lie beyond 'from'");

@@ -5,6 +5,7 @@
 #include "core/base/units.hpp"
 #include "core/domain/vocabulary.hpp"
 #include "plugins/watch/against.hpp"
+#include "plugins/watch/broken.hpp"
 
 namespace beadwork {
 
@@ -68,17 +69,11 @@ class CrackLength final : public Watcher {
 
   void look(Sight& sight) override {
     const BondTable& table = *sight.domain().find_family(*of);
-    Real all = 0, open = 0, damaged = 0;
-    for (Index b = 0; b < table.size(); ++b) {
-      all += area[b];
-      const Real lost = table.state()[b] == State::broken ? 1 : damage[b];
-      if (lost >= 1) open += area[b];
-      if (lost > 0) damaged += area[b];
-    }
+    const LostArea lost(table, area.view(), damage.view());
     const Real length = *end - *from;
-    const Real per_area = all > 0 ? (*end - *start) / all : 0;  // no contacts yet: they come in a later stage
-    const Real by_open = *start - *from + per_area * open;
-    const Real by_damage = *start - *from + per_area * damaged;
+    const Real per_area = lost.all > 0 ? (*end - *start) / lost.all : 0;  // no contacts yet: they come in a later stage
+    const Real by_open = *start - *from + per_area * lost.open;
+    const Real by_damage = *start - *from + per_area * lost.damaged;
     std::vector<Real> row{against.displacement(sight), by_open / length, by_damage / length, by_damage - by_open};
     if (reference.given()) {
       const Real displacement = row[0];

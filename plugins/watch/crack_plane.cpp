@@ -75,6 +75,8 @@ class CrackPlane final : public Watcher {
   }
 
   void check(Complaints& complaints) const override {
+    if (faces.given() && (*faces)[0] == (*faces)[1])
+      complaints.error(faces.at(), "'faces' are one and the same set: a crack parts two");
     if (plane.given() != within.given())
       complaints.error((plane.given() ? plane : within).at(), "'plane' and 'within' stand together, or neither does");
   }
@@ -95,7 +97,7 @@ class CrackPlane final : public Watcher {
     for (const Real place : broken.places) squares += (place - mean) * (place - mean);
     std::vector<Real> row{against.displacement(sight),
                           count,
-                          broken.sound > 0 ? count / broken.sound : 0,
+                          broken.breakable > 0 ? count / broken.breakable : 0,
                           mean,
                           count > 0 ? std::sqrt(squares / count) : 0,
                           have_parted(sight) ? 1.0 : 0.0};
@@ -120,15 +122,9 @@ class CrackPlane final : public Watcher {
   }
 
   void add_interface(const BondTable& table, std::vector<Real>& row) const {
-    Real all = 0, damaged = 0, open = 0;
-    for (Index b = 0; b < table.size(); ++b) {
-      all += area[b];
-      const Real lost = table.state()[b] == State::broken ? 1 : damage[b];
-      if (lost > 0) damaged += area[b];
-      if (lost >= 1) open += area[b];
-    }
-    row.push_back(all > 0 ? damaged / all : 0);
-    row.push_back(all > 0 ? open / all : 0);
+    const LostArea lost(table, area.view(), damage.view());
+    row.push_back(lost.all > 0 ? lost.damaged / lost.all : 0);
+    row.push_back(lost.all > 0 ? lost.open / lost.all : 0);
   }
 };
 

@@ -53,6 +53,15 @@ assert float(row["quality: free_motion [m]"]) == summary["quality"]["free_motion
 END
 done
 
+echo "several decks stand in one table, each under its name"
+cp "$deck" "$work/other.xml"
+expect 0 "$beadwork" batch "$deck" "$work/other.xml" --vary 'v=0.5 mm/s,1 mm/s' --out "$work/both"
+[ "$(column deck both | sort | uniq -c | tr -s ' ' | tr '\n' ';')" = " 2 deck; 2 other;" ] || fail "$(cat "$work/both/batch.csv")"
+[ -f "$work/both/deck=other,v=1-mm-s/summary.json" ] || fail "no run of the second deck"
+mkdir "$work/same" && cp "$deck" "$work/same/deck.xml"
+expect 2 "$beadwork" batch "$deck" "$work/same/deck.xml" --out "$work/twins"
+says "decks, whose names"
+
 echo "a report lays the curves of the runs over one another"
 expect 0 "$beadwork" report "$work/sweep"
 for label in 'E = 50 GPa, v = 0.5 mm/s' 'E = 100 GPa, v = 1 mm/s'; do

@@ -35,6 +35,7 @@ deck bare
 deck snapshot '<watch><snapshot fields="displacement velocity axial-force" every="1000000"/></watch>'
 deck rare '<fail><bond-stress of="bond" strength="1e30 Pa" every="1000000"/></fail>'
 deck judged '<fail><bond-stress of="bond" strength="1e30 Pa"/></fail>'
+deck defects '<fail><defects of="bond" share="0.001"/></fail>'
 deck springs '' spring
 
 bare=$(a_step bare)
@@ -50,5 +51,6 @@ holds() { # name, what it is, sign, percent of the bare scene
 holds snapshot "with a snapshot of derived fields and of bonds, at other steps" "<" 100.5
 holds rare "with a criterion, judged at other steps" "<" 100.5
 holds judged "with a criterion, judged at each step" ">" 120
+holds defects "with defects, which are there from the start" "<" 100.5
 holds springs "springs instead of beams: no rotations" "<" 40
 exit $failed

@@ -78,7 +78,12 @@ TEST(Fibres, are_spread_evenly_where_there_is_room) {
 
 TEST(Fibres, that_do_not_fit_are_refused_with_what_does) {
   // beyond the densest packing there is, pi / sqrt(12) of the room
-  EXPECT_THAT(message_of([] { place_discs(in_square(200, 12)); }), AllOf(HasSubstr("do not fit"), HasSubstr("would")));
+  EXPECT_THAT(message_of([] { place_discs(in_square(200, 12)); }),
+              AllOf(HasSubstr("do not fit"), HasSubstr(" do; ask for so many")));
+  const std::string message = message_of([] { place_discs(in_square(40, 6)); });
+  const auto fit = static_cast<std::size_t>(std::stoi(message.substr(message.find("do not fit: ") + 12)));
+  EXPECT_EQ(place_discs(in_square(fit, 6)).size(), fit) << message;
+  EXPECT_GT(fit, 20u);
   Discs thin = in_square(3, 12);
   thin.high[0] = 0.4;
   EXPECT_THAT(message_of([&] { place_discs(thin); }), HasSubstr("too narrow"));

@@ -14,10 +14,11 @@
 namespace beadwork {
 
 /// Centres at first + k step, k < count.
-struct Row {
+struct FibreLine {
   Vec3 first, step;
   std::size_t count;
-  Real spacing;  ///< length of the fibre that one element stands for [m]
+  Real spacing;  ///< [m]
+  Real share;    ///< length of the fibre that one element stands for [m]
 };
 
 /// A filling plugin that makes fibres.
@@ -25,11 +26,12 @@ class FibreMaker : public SphereFiller {
  public:
   Param<std::string> set{
       this, {.name = "set", .doc = "Name of the set that the elements of the fibres form", .role = Role::makes_set}};
-  Param<Real> density{this,
-                      {.name = "density",
-                       .unit = "kg/m^3",
-                       .range = positive,
-                       .doc = "Density rho of the fibre: an element has the mass rho pi R^2 spacing of its piece"}};
+  Param<Real> density{
+      this,
+      {.name = "density",
+       .unit = "kg/m^3",
+       .range = positive,
+       .doc = "Density rho of the fibre: an element has the mass of its share of it, rho pi R^2 length / count"}};
   Param<Real> radius{
       this, {.name = "radius", .unit = "m", .range = positive, .doc = "Radius R of the fibre and of its elements"}};
   Param<std::int64_t> count{
@@ -55,7 +57,7 @@ class FibreMaker : public SphereFiller {
 
  protected:
   /// The row of a fibre. Throws DeckFailure where no row fits.
-  Row row_between(const Vec3& from, const Vec3& to) const {
+  FibreLine row_between(const Vec3& from, const Vec3& to) const {
     const Real length = (to - from).norm(), inset = *ends == "inside" ? *radius : 0, room = length - 2 * inset;
     if (!(room >= 0) || !(length > 0))
       refuse(at(), fmt::format("a fibre {:.6g} m long has no room for an element of radius {:.6g} m inside", length,
@@ -68,44 +70,45 @@ class FibreMaker : public SphereFiller {
     if (!cut && pieces < 1)
       refuse(at(), fmt::format("ends=\"{}\" wants two elements at least, one at each end", *ends));
     const Real step = room / std::max<Real>(1, pieces);
+    if (!cut && !(step > 0)) refuse(at(), "a fibre no longer than one element has room for no second one inside");
     if (step > 2 * *radius * (1 + 1e-9))
       refuse(at(), fmt::format("elements {:.6g} m apart do not touch, with a radius of {:.6g} m: ask for more of them, "
                                "at least {:.0f}",
                                step, *radius, std::ceil(room / (2 * *radius)) + (cut ? 0 : 1)));
     const Vec3 along = (to - from) / length;
     const auto number = static_cast<std::size_t>(std::max<Real>(1, pieces)) + (cut ? 0 : 1);
-    return {from + (cut ? step / 2 : inset) * along, step * along, number, step};
+    return {from + (cut ? step / 2 : inset) * along, step * along, number, step, length / static_cast<Real>(number)};
   }
 
   /// Makes the elements of these fibres and lists their neighbours.
-  void make(Domain& domain, std::span<const Row> fibres) {
+  void make(Domain& domain, std::span<const FibreLine> fibres) {
     std::vector<Vec3> centres;
-    for (const Row& row : fibres)
+    for (const FibreLine& row : fibres)
       for (std::size_t k = 0; k < row.count; ++k) centres.push_back(row.first + static_cast<Real>(k) * row.step);
     require_free(domain, centres);
     const Index first = add_rows(domain, *set, centres.size());
     shape(domain, first, centres, std::vector<Real>(centres.size(), *radius), *density);
     PairList& pairs = domain.pairs()[*set];
     Index here = first;
-    for (const Row& row : fibres)
+    for (const FibreLine& row : fibres)
       for (std::size_t k = 0; k < row.count; ++k, ++here) {
-        const Real m = *density * std::numbers::pi * *radius * *radius * row.spacing;
+        const Real m = *density * std::numbers::pi * *radius * *radius * row.share;
         if (mass) mass[here] = m;
         if (inertia) inertia[here] = sphere_inertia(m, *radius);
         if (k > 0) pairs.emplace_back(here - 1, here);
       }
   }
 
-  std::string row_words(const Row& row) const {
+  std::string row_words(const FibreLine& row) const {
     return fmt::format("{} elements {:.6g} m apart, overlap {:.4g}", row.count, row.spacing, overlap_of(row));
   }
-  std::string row_json(const Row& row) const {
+  std::string row_json(const FibreLine& row) const {
     return fmt::format(R"("elements_of_a_fibre":{},"spacing":{:.8g},"overlap":{:.6g})", row.count, row.spacing,
                        overlap_of(row));
   }
 
  private:
-  Real overlap_of(const Row& row) const { return 1 - row.spacing / (2 * *radius); }
+  Real overlap_of(const FibreLine& row) const { return 1 - row.spacing / (2 * *radius); }
 
   /// Throws DeckFailure where a new element overlaps one that was there.
   void require_free(const Domain& domain, std::span<const Vec3> centres) const {
