@@ -25,24 +25,35 @@ void check(const Relaxation& rule) {
         std::to_string(rule.radius_change));
 }
 
-/// The share by which all radii must shrink for the last overlap to vanish.
-Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
+/// The share by which each radius must shrink for its last overlap to vanish.
+std::vector<Real> shrinkage_of_each(const Crowd& crowd, Neighbours& neighbours) {
   const NeighbourList& list = neighbours.of(crowd);
-  return sum_in_blocks<Largest>(
-             crowd.moving,
-             [&](std::size_t begin, std::size_t end, Largest& largest) {
-               for (std::size_t i = begin; i < end; ++i) {
-                 const Ball& a = crowd.ball[i];
-                 for (std::size_t w = 0; w < crowd.walls.size(); ++w)
-                   largest.value = std::max(largest.value, 1 - crowd.walls.view(w, a.x).distance / a.r);
-                 for (const Index j : list.of(i)) {
-                   const Ball& b = crowd.ball[std::size_t(j)];
-                   const Real overlap = a.r + b.r - (b.x - a.x).norm();
-                   largest.value = std::max(largest.value, overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
-                 }
-               }
-             })
-      .value;
+  std::vector<Real> share(crowd.moving, 0);
+  for_each(crowd.moving, [&](std::size_t i) {
+    const Ball& a = crowd.ball[i];
+    for (std::size_t w = 0; w < crowd.walls.size(); ++w)
+      share[i] = std::max(share[i], 1 - crowd.walls.view(w, a.x).distance / a.r);
+    for (const Index j : list.of(i)) {
+      const Ball& b = crowd.ball[std::size_t(j)];
+      const Real overlap = a.r + b.r - (b.x - a.x).norm();
+      share[i] = std::max(share[i], overlap / (std::size_t(j) < crowd.moving ? a.r + b.r : a.r));
+    }
+  });
+  return share;
+}
+
+/// For all radii to shrink alike.
+Real shrinkage_needed(const Crowd& crowd, Neighbours& neighbours) {
+  const std::vector<Real> share = shrinkage_of_each(crowd, neighbours);
+  return share.empty() ? 0 : *std::max_element(share.begin(), share.end());
+}
+
+/// Beside obstacles a few may find no room, however much the others have.
+void shrink_those_that_overlap(Crowd& crowd, Neighbours& neighbours) {
+  constexpr Real much = 1e-6;
+  const std::vector<Real> share = shrinkage_of_each(crowd, neighbours);
+  for (std::size_t i = 0; i < crowd.moving; ++i)
+    if (share[i] > much) crowd.ball[i].r *= 1 - share[i];
 }
 
 void tell_of_overlap(const Tell& tell, const char* which, Real overlap) {
@@ -112,6 +123,7 @@ std::size_t shrink_lodged(Crowd& crowd) {
 }
 
 void shrink_away_last_overlap(Packing& packing, Crowd& crowd, Neighbours& neighbours, Real goal) {
+  if (crowd.ball.size() > crowd.moving) shrink_those_that_overlap(crowd, neighbours);
   const Real left = shrinkage_needed(crowd, neighbours);
   if (left <= goal) return;
   scale_radii(crowd, 1 - left);

@@ -150,6 +150,9 @@ class Bench final : public Workings {
     b.step = moment_.step;
     b.bond = bond;
     domain_.breaks().breaks.push_back(b);
+    BondTable& table = *domain_.find_family(domain_.families().front()->name());
+    for (Index row = 0; row < table.size(); ++row)
+      if (table.id()[row] == bond) table.state()[row] = State::broken;
   }
 
   Domain& domain() override { return domain_; }
