@@ -510,6 +510,8 @@ def fibres():
     for overlap in (0, 0.5, 0.9, 0.99, 0.999):
         result = run("../tests/decks/good/fibre_chain.xml", overlap=overlap)
         near(f"overlap {overlap}: tip, F L / (E pi R^2)", result.last("tip", "displacement")[2], F * L / (E * math.pi * R**2), 1e-6)
+    scattered, clustered = (crowding_of_defects(f"../tests/decks/good/{deck}.xml") for deck in ("defects", "defects_clustered"))
+    below("defects in spheres: distance to the fifth nearest over that of single ones", clustered / scattered, 0.75)
     A, sigma, G, u_e, u_p = 3 * math.pi * 1e-6, 10e6, 500, 5e-6, 1e-4
     for angle in (0, 30, 60, 90):
         result = run("../tests/decks/good/contact_at_angle.xml", angle=angle)
@@ -518,6 +520,16 @@ def fibres():
         area = sigma * k**2 / (2 * u_e) if k < u_e else sigma / 2 * (u_p - (u_p - k) ** 2 / (u_p - u_e))
         near(f"at {angle} degrees: dissipated", result.energy["dissipated"], A * (G + area), 5e-4)
         below("ledger's residual over work", residual_over_work(result.energy), 1e-4)
+
+
+def crowding_of_defects(deck):
+    """Mean distance of a bond that is broken from the start to the fifth nearest of its like [m]."""
+    result = run(deck, end="1 nm")
+    with h5py.File(result.folder / "run.h5") as file:
+        frame = file["frames"][sorted(file["frames"])[0]]
+        bonds = frame["bonds/beams"]
+        middle = frame["elements/position"][:][bonds["ends"][:]].mean(axis=1)[bonds["state"][:] == 2]
+    return numpy.mean([sorted(numpy.linalg.norm(middle - x, axis=1))[5] for x in middle])
 
 
 def strains(result, side):

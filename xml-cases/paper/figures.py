@@ -83,9 +83,8 @@ class Run:
             family = [n.decode() for n in log["family_names"][:]]
             place = log["place"][:][log["family"][:] == family.index("resin")]
             first = file["frames"][sorted(file["frames"])[0]]
-            x = dict(zip(first["elements/id"][:], first["elements/position"][:]))
             resin = first["bonds/resin"]
-            middle = numpy.array([(x[i] + x[j]) / 2 for i, j in zip(resin["first"][:], resin["second"][:])])
+            middle = first["elements/position"][:][resin["ends"][:]].mean(axis=1)
             broken = resin["state"][:] == 2
         if not broken.any() or not len(place):
             return math.nan, math.nan
