@@ -38,6 +38,8 @@ HURRY = {
     "roll-up": (16, []),
     "alfano-crisfield": (150, ["increment=20 um"]),
     "enf": (150, []),
+    "single-fibre": (600, ["v=5 m/s", "rise=0.01 us", "count=700"]),
+    "multi-fibre": (600, ["v=10 m/s", "rise=0.02 us", "count=800"]),
     "notched-bar/rdef": (600, ["v=40 m/s", "strength=2 MPa", "count=600"]),
 }
 WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
@@ -45,12 +47,15 @@ WALL_CLOCK = {"loop-seconds", "wall-seconds"}  # told, not computed
 
 class Case:
     def __init__(self, beadwork, deck, folder):
-        self.beadwork, self.folder = beadwork, folder
+        self.beadwork, self.folder = beadwork, folder / deck.parent.name
         self.steps, self.settings = HURRY.get(f"{deck.parent.name}/{deck.stem}", HURRY.get(deck.parent.name, (STEPS, [])))
         self.every = max(1, self.steps // 20)
+        self.folder.mkdir()
         for file in [*deck.parent.glob("*.xml"), *deck.parent.glob("*.csv")]:
-            shutil.copy(file, folder)
-        self.deck = folder / deck.name
+            shutil.copy(file, self.folder)
+        if "../calibration/" in deck.read_text():
+            shutil.copytree(deck.parent.parent / "calibration", folder / "calibration")
+        self.deck = self.folder / deck.name
         self.deck.write_text(self.deck.read_text().replace("</scene>", '<watch><snapshot fields="all" every="1"/></watch></scene>'))
         self.drop_parameters_of_until()
 
@@ -75,7 +80,8 @@ class Case:
         """The deck that ends after so many steps; looks often enough to have rows and frames."""
         for file in self.folder.glob("*.xml"):  # those that the deck includes too
             text = re.sub(r' until="[^"]*"', f' until="{steps}"', file.read_text())
-            file.write_text(re.sub(r' every="[^"]*"', f' every="{self.every}"', text))
+            # of watchers: when a criterion judges is physics
+            file.write_text(re.sub(r' every="(?!\$\{judged-every\})[^"]*"', f' every="{self.every}"', text))
         return [self.beadwork, "run", "-q", str(self.deck), "--out", str(self.folder / out), "--threads", str(threads),
                 *self.overrides(), *more]
 
