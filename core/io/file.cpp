@@ -82,9 +82,8 @@ int write_all(int descriptor, const void* data, std::size_t size) {
 Descriptor open_regular(const std::filesystem::path& file, int flags, std::string_view doing, SymbolicLinks links) {
   struct stat status {};
   // Without O_NONBLOCK a pipe would be waited for; of a regular file it changes nothing.
-  Descriptor descriptor(
-      ::open(file.c_str(),
-             flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (links == SymbolicLinks::refuse ? O_NOFOLLOW : 0), 0666));
+  Descriptor descriptor(::open(
+      file.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (links == SymbolicLinks::refuse ? O_NOFOLLOW : 0), 0666));
   const int error = errno;
   if (!descriptor && ::lstat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
       (links == SymbolicLinks::refuse || !S_ISLNK(status.st_mode)))

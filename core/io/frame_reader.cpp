@@ -186,15 +186,18 @@ std::map<std::string, std::string> FrameReader::meta() const {
   return out;
 }
 
-std::map<std::string, std::vector<std::int64_t>> FrameReader::sets() const { return ids_in("sets"); }
-std::map<std::string, std::vector<std::int64_t>> FrameReader::pairs() const { return ids_in("pairs"); }
+std::map<std::string, std::vector<std::int64_t>> FrameReader::sets() const { return ids_in("sets", 1); }
+std::map<std::string, std::vector<std::int64_t>> FrameReader::pairs() const { return ids_in("pairs", 2); }
 
-std::map<std::string, std::vector<std::int64_t>> FrameReader::ids_in(const char* name_of_group) const {
+std::map<std::string, std::vector<std::int64_t>> FrameReader::ids_in(const char* name_of_group, int width) const {
   const h5::Silence silence;
   std::map<std::string, std::vector<std::int64_t>> out;
   if (!has(file_->handle.id(), name_of_group)) return out;
   const Handle group = h5::open_group(file_->handle.id(), name_of_group);
-  for (const std::string& name : h5::names_in(group.id())) out[name] = h5::read_integers(group.id(), name);
+  for (const std::string& name : h5::names_in(group.id())) {
+    const std::vector<Index> ids = h5::read_indices(group.id(), name, width);
+    out[name].assign(ids.begin(), ids.end());
+  }
   return out;
 }
 

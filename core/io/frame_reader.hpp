@@ -80,7 +80,7 @@ class FrameReader {
   std::map<std::string, std::vector<std::int64_t>> pairs() const;
 
  private:
-  std::map<std::string, std::vector<std::int64_t>> ids_in(const char* group) const;
+  std::map<std::string, std::vector<std::int64_t>> ids_in(const char* group, int width) const;
   struct File;
   std::unique_ptr<File> file_;
   std::vector<FrameHead> frames_;

@@ -133,8 +133,7 @@ Candidates listed_ones(const BondLaw& law, const Domain& domain) {
   return among;
 }
 
-Candidates near_ones(const BondLaw& law, const Domain& domain, const Pause& pause) {
-  const std::string which = neighbours_of(law, domain);
+Candidates near_ones(const BondLaw& law, const std::string& which, const Domain& domain, const Pause& pause) {
   const Location& at = law.gap.in_deck() ? law.gap.at() : law.at();
   try {
     Candidates among =
@@ -156,10 +155,8 @@ Candidates near_ones(const BondLaw& law, const Domain& domain, const Pause& paus
 
 /// Leaves out the pairs that reach over a third element where the law bonds the next only, and warns of them where it
 /// does not.
-void mind_far_ones(const BondLaw& law, const Domain& domain, Candidates& among, const Pause& pause, const Log& log) {
-  const std::string which = neighbours_of(law, domain);
-  if (which == "listed") mind_unlisted(law, domain, log);
-  if (which == "nearest" || which == "listed") return;
+void mind_far_ones(const BondLaw& law, const std::string& which, Candidates& among, const Pause& pause,
+                   const Log& log) {
   const std::vector<Index> between = elements_between(among.position, among.radius, among.pairs, pause);
   const auto far = std::count_if(between.begin(), between.end(), [](Index k) { return k >= 0; });
   if (far == 0) return;
@@ -203,17 +200,19 @@ std::vector<Near> walls_in_reach(const ContactLaw& law, const Domain& domain, Re
 }  // namespace
 
 bool has_pairs(const BondLaw& law, const Domain& domain, const Pause& pause) {
-  return !near_ones(law, domain, pause).pairs.empty();
+  return !near_ones(law, neighbours_of(law, domain), domain, pause).pairs.empty();
 }
 
 std::vector<std::pair<Index, Index>> pairs_to_bond(const BondLaw& law, const Domain& domain, const Pause& pause,
                                                    const Log& log) {
-  Candidates among = near_ones(law, domain, pause);
+  const std::string which = neighbours_of(law, domain);
+  Candidates among = near_ones(law, which, domain, pause);
   if (among.pairs.empty())
     refuse(law.at(), fmt::format("family '{}' has no bond: no element of '{}' touches one of '{}', also with 'gap' = "
                                  "{} of the sum of their radii between them; a larger 'gap' or another set may help",
                                  *law.name, (*law.between)[0], (*law.between)[1], law.gap.value()));
-  mind_far_ones(law, domain, among, pause, log);
+  if (which == "listed") mind_unlisted(law, domain, log);
+  if (which == "all" || which == "next") mind_far_ones(law, which, among, pause, log);
   std::vector<std::pair<Index, Index>> pairs;
   pairs.reserve(among.pairs.size());
   for (const Pair& pair : among.pairs) pairs.emplace_back(among.row(pair.i), among.row(pair.j));

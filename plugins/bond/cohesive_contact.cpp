@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -231,7 +229,7 @@ class CohesiveContact final
     if (*area_rule == "normalised")
       for (Index row = 0; row < table.size(); ++row) area[row] *= *interface_area / sum;
     if (carried()) set_normals(domain, table);
-    tilt_ = carried() ? 0 : tilt_of_lines(domain, table);
+    tilt_ = carried() ? Tilt{} : tilt_of_lines(domain, table, (*between)[0]);
     for (const auto& family : domain.families()) may_meet_ |= family->is_of_contacts();
   }
 
@@ -249,12 +247,12 @@ class CohesiveContact final
       all =
           "broken=\"leaves\" leaves its pairs to laws of <contact>, and there are none: what has failed may pass "
           "through";
-    if (*modes == "both" && tilt_ > little)
+    if (*modes == "both" && tilt_.degrees > little)
       all += fmt::format(
           "{}its lines of centres lie {:.0f} degrees off {} (rms): measured against them, contacts lock when the "
           "interface is sheared and take more than their strength and energy; normal=\"plane\", or \"axis\" around a "
           "fibre, gives them the interface's normal",
-          all.empty() ? "" : "; ", tilt_, at_fibres_ ? "the fibres' radii" : "their mean");
+          all.empty() ? "" : "; ", tilt_.degrees, tilt_.at_fibres ? "the fibres' radii" : "their mean");
     return all;
   }
 
@@ -332,24 +330,6 @@ class CohesiveContact final
       }
   }
 
-  /// How far the lines of centres lie off the radius of a fibre, or off the one direction that they have in common (rms)
-  /// [deg].
-  Real tilt_of_lines(const Domain& domain, const BondTable& table) {
-    at_fibres_ = domain.pairs().contains((*between)[0]);
-    if (at_fibres_) {
-      std::vector<std::pair<Index, Index>> contacts;
-      for (Index row = 0; row < table.size(); ++row) contacts.emplace_back(table.first()[row], table.second()[row]);
-      return InterfaceNormals::tilt_at_fibres(contacts, domain, (*between)[0]);
-    }
-    Mat3 mean = Mat3::Zero();
-    for (Index row = 0; row < table.size(); ++row) {
-      const Vec3 line = (position[table.second()[row]] - position[table.first()[row]]).normalized();
-      mean += line * line.transpose() / static_cast<Real>(table.size());
-    }
-    const Real along = Eigen::SelfAdjointEigenSolver<Mat3>(mean, Eigen::EigenvaluesOnly).eigenvalues()[2];
-    return std::acos(std::sqrt(std::clamp(along, Real(0), Real(1)))) * 180 / std::numbers::pi;
-  }
-
   void set_normals(const Domain& domain, const BondTable& table) {
     std::vector<Meeting> meetings;
     const auto is_in = [&](std::size_t which) {
@@ -419,9 +399,8 @@ class CohesiveContact final
   }
 
   Real literal_area_ = 0;
-  bool may_meet_ = false;   // the deck has laws of contact
-  bool at_fibres_ = false;  // whose neighbours are listed
-  Real tilt_ = 0;           // of the lines of centres, where they are the normals [deg]
+  bool may_meet_ = false;  // the deck has laws of contact
+  Tilt tilt_;              // of the lines of centres, where they are the normals
   std::string about_normals_;
 };
 

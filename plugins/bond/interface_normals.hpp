@@ -4,7 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -27,6 +30,57 @@ struct Meeting {
 struct Axis {
   Vec3 point, direction;
 };
+
+/// For each element that lies in a row with its neighbours: the way of the row; else zero.
+inline std::vector<Vec3> directions_along(std::span<const Index> fibre, const PairList& neighbours,
+                                          const View<const Vec3>& position, Index elements) {
+  constexpr Real straight = 0.1;  // rms distance of neighbours from the line through them over that along it, at most
+  std::vector<std::vector<Vec3>> around(static_cast<std::size_t>(elements));
+  for (const Index row : fibre) around[static_cast<std::size_t>(row)] = {position[row]};
+  for (const auto& [first, second] : neighbours) {
+    around[static_cast<std::size_t>(first)].push_back(position[second]);
+    around[static_cast<std::size_t>(second)].push_back(position[first]);
+  }
+  std::vector<Vec3> directions(around.size(), Vec3::Zero());
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    if (around[k].size() < 2) continue;
+    const Spread spread = spread_of(around[k]);
+    if (spread.rms[1] <= straight * spread.rms[2]) directions[k] = spread.direction[2];
+  }
+  return directions;
+}
+
+/// How far the lines of centres of contacts lie off what they should be along (rms).
+struct Tilt {
+  Real degrees = 0;
+  bool at_fibres = false;  ///< off the radii of the fibres of the first set; else off the one direction that they share
+};
+
+inline Tilt tilt_of_lines(const Domain& domain, const BondTable& table, const std::string& first_set) {
+  constexpr Real degree = std::numbers::pi / 180;
+  const auto position = domain.elements().column("position").view<Vec3>();
+  const auto line = [&](Index row) {
+    return Vec3((position[table.second()[row]] - position[table.first()[row]]).normalized());
+  };
+  const auto listed = domain.pairs().find(first_set);
+  if (listed == domain.pairs().end()) {
+    Mat3 mean = Mat3::Zero();
+    for (Index row = 0; row < table.size(); ++row)
+      mean += line(row) * line(row).transpose() / static_cast<Real>(table.size());
+    const Real along = Eigen::SelfAdjointEigenSolver<Mat3>(mean, Eigen::EigenvaluesOnly).eigenvalues()[2];
+    return {std::acos(std::sqrt(std::clamp(along, Real(0), Real(1)))) / degree, false};
+  }
+  const auto directions = directions_along(domain.set(first_set), listed->second, position, domain.size());
+  Real sum = 0, counted = 0;
+  for (Index row = 0; row < table.size(); ++row)
+    for (const Index end : {table.first()[row], table.second()[row]}) {
+      const Vec3& direction = directions[static_cast<std::size_t>(end)];
+      if (direction.isZero()) continue;  // the other set's, or a single element
+      sum += std::pow(line(row).dot(direction), 2);
+      counted += 1;
+    }
+  return {std::asin(std::sqrt(std::min<Real>(1, counted > 0 ? sum / counted : 0))) / degree, true};
+}
 
 class InterfaceNormals {
  public:
@@ -68,31 +122,11 @@ class InterfaceNormals {
     });
   }
 
-  /// How far the lines of centres lie off the radius of listed fibres (rms) [deg].
-  static Real tilt_at_fibres(std::span<const std::pair<Index, Index>> contacts, const Domain& domain,
-                             const std::string& set) {
-    const auto position = domain.elements().column("position").view<Vec3>();
-    const std::vector<Vec3> directions =
-        directions_along(domain.set(set), domain.pairs().at(set), position, domain.size());
-    Real sum = 0, counted = 0;
-    for (const auto& [first, second] : contacts) {
-      const Vec3 &one = directions[static_cast<std::size_t>(first)],
-                 &other = directions[static_cast<std::size_t>(second)];
-      if (one.isZero() && other.isZero()) continue;  // a single element
-      const Real along = (position[second] - position[first]).normalized().dot(one.isZero() ? other : one);
-      sum += along * along;
-      counted += 1;
-    }
-    return std::asin(std::sqrt(std::min<Real>(1, counted > 0 ? sum / counted : 0))) * 180 / std::numbers::pi;
-  }
-
   /// In words, for the log.
   const std::string& remark() const { return remark_; }
 
  private:
-  static constexpr Real thin = 0.3;  // a plane's rms thickness over its smaller rms width, at most
-  static constexpr Real straight =
-      0.1;  // rms distance of neighbours from the line through them over that along it, at most
+  static constexpr Real thin = 0.3;        // a plane's rms thickness over its smaller rms width, at most
   static constexpr Real one_sided = 0.05;  // mean of n.d over mean of |d|, at least
 
   Vec3 fitted() {
@@ -167,24 +201,6 @@ class InterfaceNormals {
     for (const Pair& near : find_pairs(place, size, 1e-3))
       pairs.emplace_back(fibre[static_cast<std::size_t>(near.i)], fibre[static_cast<std::size_t>(near.j)]);
     return pairs;
-  }
-
-  /// For each element that lies in a row with its neighbours: the way of the row; else zero.
-  static std::vector<Vec3> directions_along(std::span<const Index> fibre, const PairList& neighbours,
-                                            const View<const Vec3>& position, Index elements) {
-    std::vector<std::vector<Vec3>> around(static_cast<std::size_t>(elements));
-    for (const Index row : fibre) around[static_cast<std::size_t>(row)] = {position[row]};
-    for (const auto& [first, second] : neighbours) {
-      around[static_cast<std::size_t>(first)].push_back(position[second]);
-      around[static_cast<std::size_t>(second)].push_back(position[first]);
-    }
-    std::vector<Vec3> directions(around.size(), Vec3::Zero());
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      if (around[k].size() < 2) continue;
-      const Spread spread = spread_of(around[k]);
-      if (spread.rms[1] <= straight * spread.rms[2]) directions[k] = spread.direction[2];
-    }
-    return directions;
   }
 
   std::vector<Meeting> meetings_;

@@ -296,11 +296,10 @@ class Colliding
     const Vec3 place = rotate_back(wall.orientation, Vec3(domain.pose(pair.first).position - wall.position));
     const Real blunt = effective_radius(this->facets(), pair.facet, r, place);
     if (!(blunt > 0))
-      refuse(
-          this->between.at(),
-          fmt::format("element {} of radius {:.6g} m does not fit into the hollow wall: make that wider, or leave the "
-                      "element out of the set",
-                      domain.elements().column("id").view<Index>()[pair.first], r));
+      refuse(this->between.at(),
+             fmt::format("element {} of radius {:.6g} m does not fit into the hollow wall: make that wider, or leave the "
+                         "element out of the set",
+                         domain.elements().column("id").view<Index>()[pair.first], r));
     return stiffness_at_plane(blunt);
   }
   Real zeta_ = 0;

@@ -36,13 +36,12 @@ class CrackPlane final : public Watcher {
                       .range = positive,
                       .doc = "Distance from 'plane' up to which a break counts as near it",
                       .optional = true}};
-  Param<std::string> interface {
-    this, {
-      .name = "interface",
-      .doc = "Family of cohesive contacts of which the damaged and the open share of the area are told too",
-      .optional = true, .role = Role::family
-    }
-  };
+  Param<std::string> contacts{
+      this,
+      {.name = "interface",
+       .doc = "Family of cohesive contacts of which the damaged and the open share of the area are told too",
+       .optional = true,
+       .role = Role::family}};
   Against against{this};
   Param<std::string> name{this,
                           {.name = "name", .doc = "Name of the curve and of its file", .fallback = "crack-plane"}};
@@ -60,15 +59,15 @@ class CrackPlane final : public Watcher {
   Reads<Real> area{this, {"area", On::bonds, "m2", "Area that a contact stands for"}};
 
   std::vector<std::string> families() const override {
-    return interface.given() ? std::vector<std::string>{*interface} : std::vector<std::string>{};
+    return contacts.given() ? std::vector<std::string>{*contacts} : std::vector<std::string>{};
   }
 
   void choose() override {
-    damage.want(interface.given());
-    area.want(interface.given());
+    damage.want(contacts.given());
+    area.want(contacts.given());
     curve.plan.x = against.abscissa();
     if (plane.given()) curve.plan.columns.push_back({"share near the plane", "1"});
-    if (!interface.given()) return;
+    if (!contacts.given()) return;
     curve.plan.columns.push_back({"damaged share of the interface", "1"});
     curve.plan.columns.push_back({"open share of the interface", "1"});
     curve.plan.y.push_back("damaged share of the interface");
@@ -102,7 +101,7 @@ class CrackPlane final : public Watcher {
                           count > 0 ? std::sqrt(squares / count) : 0,
                           have_parted(sight) ? 1.0 : 0.0};
     if (plane.given()) row.push_back(count > 0 ? near / count : 0);
-    if (interface.given()) add_interface(*sight.domain().find_family(*interface), row);
+    if (contacts.given()) add_interface(*sight.domain().find_family(*contacts), row);
     curve.row(row);
   }
 

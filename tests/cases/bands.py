@@ -6,6 +6,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -510,6 +511,15 @@ def fibres():
     for overlap in (0, 0.5, 0.9, 0.99, 0.999):
         result = run("../tests/decks/good/fibre_chain.xml", overlap=overlap)
         near(f"overlap {overlap}: tip, F L / (E pi R^2)", result.last("tip", "displacement")[2], F * L / (E * math.pi * R**2), 1e-6)
+    with h5py.File(run("../tests/decks/good/contact_nearest.xml").folder / "run.h5") as file:
+        frame = file["frames"][sorted(file["frames"])[0]]
+        pairs = sorted(map(sorted, frame["elements/id"][:][frame["bonds/interface/ends"][:]].tolist()))
+    none(f"contacts with another than the nearest element of a fibre, {pairs}", pairs != [[20, 41], [21, 42]])
+    stored = run("../tests/decks/good/fibre_chain.xml").folder / "run.h5"
+    read = pathlib.Path(scratch) / "read.xml"
+    deck = (SOURCE / "tests/decks/good/fibre_chain.xml").read_text().replace('<parameter name="overlap" value="0.9"/>', "")
+    read.write_text(re.sub("<fibre-row .*?/>", f'<read-packing set="fibre" file="{stored}" of="fibre" density="2540 kg/m^3"/>', deck))
+    near("springs of a fibre that is read", run(read).summary["bonds"]["glass"], 40, 1e-9)
     scattered, clustered = (crowding_of_defects(f"../tests/decks/good/{deck}.xml") for deck in ("defects", "defects_clustered"))
     below("defects in spheres: distance to the fifth nearest over that of single ones", clustered / scattered, 0.75)
     A, sigma, G, u_e, u_p = 3 * math.pi * 1e-6, 10e6, 500, 5e-6, 1e-4

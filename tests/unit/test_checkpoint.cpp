@@ -99,6 +99,17 @@ TEST(Checkpoint, everything_kept_comes_back_to_the_bit) {
   expect_same_domain(bar.domain, back.domain);
 }
 
+TEST(Checkpoint, listed_neighbours_come_back) {
+  const Scratch scratch;
+  Bar bar(6);
+  bar.domain.pairs()["fibre"] = {{0, 1}, {1, 4}};
+  save_checkpoint(scratch / "checkpoint.h5", bar.domain, some_meta());
+  Bar back;
+  back.domain.pairs()["other"] = {{0, 1}};
+  load_checkpoint(scratch / "checkpoint.h5", back.domain);
+  EXPECT_EQ(back.domain.pairs(), bar.domain.pairs());
+}
+
 TEST(Checkpoint, what_the_scene_lists_comes_back_and_must_be_as_long) {
   const Scratch scratch;
   const auto list_work = [](Domain& domain, Index rows) {
