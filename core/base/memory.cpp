@@ -52,6 +52,11 @@ double of_the_group() {
 
 }  // namespace
 
+double peak_memory() {
+  rusage usage{};
+  return ::getrusage(RUSAGE_SELF, &usage) == 0 ? 1024. * static_cast<double>(usage.ru_maxrss) : 0;
+}
+
 double memory_at_most() {
   static const double memory = std::min({of_the_machine(), of_the_shell(), of_the_group()});
   return memory;

@@ -9,6 +9,9 @@ namespace beadwork {
 /// (ulimit -v, a control group such as those of Slurm and of containers).
 double memory_at_most();
 
+/// The most that this process has held so far [bytes].
+double peak_memory();
+
 /// Why `things` ("elements") of `bytes` each and so many of them cannot be held in `memory`; empty if they can.
 std::string why_no_memory(double count, const std::string& things, double bytes, double memory = memory_at_most());
 

@@ -53,6 +53,8 @@ class Record final : public CurveSink {
   /// Holds the room of the next checkpoint, where its part file will stand: when the disk is full it can still be
   /// written.
   void reserve_room() const;
+  /// Of the newest checkpoint; nothing where there is none.
+  std::optional<std::int64_t> saved_step() const { return saved_step_; }
   /// From the first step on it is this session that ends, one way or another.
   void note_step() { former_summary_.reset(); }
 

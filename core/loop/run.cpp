@@ -190,6 +190,20 @@ Real Run::utilisation() {
 
 Real Run::next_moment(Real until) const { return looks_.next_moment(until); }
 
+// Most steps end sooner, and then nothing is lost.
+void Run::pause() {
+  constexpr std::chrono::seconds long_enough{10};
+  if (!options_.is_interrupted()) return;
+  const auto now = Clock::now();
+  if (!asked_to_stop_) asked_to_stop_ = now;
+  if (now - *asked_to_stop_ < long_enough) return;
+  const auto saved = record_.saved_step();
+  throw Interrupted(fmt::format(
+      "interrupted within step {}, which did not end in {} s; {}: {}", state_.moment.step, long_enough.count(),
+      saved ? fmt::format("the newest checkpoint is of step {}, go on with", *saved) : "begin anew with",
+      saved ? options_.commands.go_on : options_.commands.begin_again));
+}
+
 // So that what summary.json says of a failed run's energies stands for one moment, and its quality knows of them.
 void Run::fail(const std::exception& failure) {
   if (state_.phase != RunState::Phase::within_step) {

@@ -2,6 +2,8 @@
 // Runs a scene: fills it, goes through its stages step by step, lets watchers look, saves checkpoints. One way, from
 // the scene to the record.
 
+#include <optional>
+
 #include "core/loop/breaking.hpp"
 #include "core/loop/contacts.hpp"
 #include "core/loop/looks.hpp"
@@ -59,9 +61,11 @@ class Run final : private Workings {
   void evaluate(bool settle) override;
   Real utilisation() override;
   Real next_moment(Real until) const override;
+  void pause() override;
   Real reach() const override { return contacts_.reach(); }
 
   RunOptions options_;
+  std::optional<Clock::time_point> asked_to_stop_;  ///< first seen in the middle of a step
   RunState state_;
   Offered offered_;
   Forces forces_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/failure.hpp"
+#include "core/base/memory.hpp"
 #include "core/base/text.hpp"
 #include "core/domain/flaws.hpp"
 #include "core/loop/json_text.hpp"
@@ -132,6 +133,7 @@ std::string summary_json(const RunState& state, const Balance& balance, const Fi
   json["time_step"] = moment.time_step;
   json["wall_seconds"] = figures.wall_seconds;
   json["loop_seconds"] = figures.loop_seconds;
+  json["peak_memory_bytes"] = peak_memory();
   json["bond_updates"] = figures.bond_updates;
   json["bond_updates_per_second"] = figures.loop_seconds > 0 ? figures.bond_updates / figures.loop_seconds : 0;
   for (const MoverFigure& figure : state.mover().figures()) json["mover"][figure.name] = figure.value;

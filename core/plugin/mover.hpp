@@ -29,6 +29,9 @@ class Workings {
   virtual Real next_moment(Real until) const = 0;
   /// How far an element may move in a step without missing a contact [m]; infinite where nothing may touch.
   virtual Real reach() const = 0;
+  /// To be called now and then in a step that may take long: throws Interrupted once the user has waited long enough for
+  /// its end. The step is then lost.
+  virtual void pause() = 0;
   /// The laws that act in this stage, each with its table.
   virtual std::span<const std::pair<PairLaw*, BondTable*>> laws() const = 0;
   virtual Log& log() = 0;

@@ -165,6 +165,7 @@ NewtonResult Newton::go(Real time, Manner manner) {
 
   for (result.iterations = 1; result.iterations <= (careful ? 8 : 1) * limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
+    model_.pause();
     if (forced && !renew(careful ? Slope::secant : limits_.slope, result)) return result;
     if (forced) acceleration.forget();
     const Lacking lacking = model_.lacking();
@@ -211,6 +212,7 @@ NewtonResult Newton::go_by(const Vector& gradient, Real value) {
   Judge judge(model_, f, limits_.tolerance);
   for (result.iterations = 1; result.iterations <= limits_.iterations; ++result.iterations) {
     ++costs_.iterations;
+    model_.pause();
     if (!renew(limits_.slope, result)) return result;
     Vector du, per_second;
     if (!solve(f, model_.lacking(), du) || !solve(model_.force_rates(), model_.support_rates(), per_second))

@@ -36,6 +36,7 @@ class SceneModel final : public StaticModel {
   Real work_on_the_way() override;
   Real time() const override { return w_.moment().time; }
   Real noise() const override { return noise_; }
+  void pause() override { w_.pause(); }
   void give_up() override;
 
   /// Round-off of forces [N] and of energies [J], by the stiffness at the present state.

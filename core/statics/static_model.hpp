@@ -33,6 +33,8 @@ class StaticModel {
   virtual Real time() const = 0;
   /// Forces smaller than this are round-off [N].
   virtual Real noise() const = 0;
+  /// Called once an iteration; what it throws ends the search.
+  virtual void pause() {}
   /// Back to the last accepted state.
   virtual void give_up() = 0;
 };

@@ -161,6 +161,7 @@ class Bench final : public Workings {
   void evaluate(bool) override {}
   Real utilisation() override { return 0; }
   Real next_moment(Real until) const override { return until; }
+  void pause() override {}
   Real reach() const override { return std::numeric_limits<Real>::infinity(); }
   std::span<const std::pair<PairLaw*, BondTable*>> laws() const override { return laws_; }
   Log& log() override { return log_; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/base/failure.hpp"
 #include "core/statics/newton.hpp"
 
 namespace beadwork {
@@ -41,10 +42,14 @@ class OneSpring final : public StaticModel {
   }
   Real time() const override { return time_; }
   Real noise() const override { return 1e-14; }
+  void pause() override {
+    if (--iterations_left < 0) throw Interrupted("its user wants it to stop");
+  }
   void give_up() override { place = accepted_, time_ = accepted_time_; }
   void accept() { accepted_ = place, accepted_time_ = time_; }
 
   Real place = 0;
+  int iterations_left = 1000000;
 
  private:
   Law law_, slope_;
@@ -63,6 +68,13 @@ struct Solving {
     system.analyse(one_number());
   }
 };
+
+TEST(Newtons, can_be_stopped_before_an_equilibrium_is_found) {
+  Solving s([](Real u) { return u + u * u * u; }, [](Real u) { return 1 + 3 * u * u; });
+  s.model.iterations_left = 2;
+  EXPECT_THROW(s.newton.go(5, Manner::thorough), Interrupted);
+  EXPECT_EQ(s.newton.costs().solves, 2);
+}
 
 Real stiffening(Real u) { return u + u * u * u / 10; }
 Real its_slope(Real u) { return 1 + 3 * u * u / 10; }
