@@ -8,7 +8,7 @@ packages=(
   libmumps-seq-dev libmetis-dev libopenblas0-serial
   libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  libxml2-utils python3-h5py
+  libxml2-utils python3-h5py python3-meshio
 )
 
 missing=()

@@ -47,28 +47,33 @@ FrameHead head_of(hid_t group, const std::string& name) {
   return head;
 }
 
-/// Columns of numbers and of vectors besides the `usual` ones; what has another shape or length is no column.
-std::vector<FieldValues> read_fields(hid_t group, std::initializer_list<const char*> usual, std::size_t rows) {
+/// Columns besides the `usual` ones; what has another shape or length is no column.
+std::vector<FieldValues> read_fields(hid_t group, std::initializer_list<const char*> usual, std::size_t rows,
+                                     Columns columns) {
   std::vector<FieldValues> fields;
   for (const std::string& name : h5::names_in(group)) {
     if (std::find(usual.begin(), usual.end(), name) != usual.end()) continue;
     const std::vector<hsize_t> shape = h5::shape_of(group, name).extent;
-    const bool vector = shape.size() == 2 && shape[1] == 3;
-    if (shape.empty() || shape[0] != rows || (shape.size() > 1 && !vector)) continue;
+    if (shape.empty() || shape[0] != rows || shape.size() > 2) continue;
+    const hsize_t width = shape.size() == 2 ? shape[1] : 1;
+    const bool is_known = width == 1 || width == 3 || width == 4 || width == 6;
+    if (!is_known || (columns == Columns::drawable && width > 3)) continue;
     FieldValues field;
     field.name = name;
-    field.is_length = vector;
+    field.is_length = columns == Columns::drawable && width == 3;
     field.unit = h5::unit_of(group, name);
-    if (vector)
+    if (field.is_length) {
       for (const Vec3& v : vectors(group, name)) field.values.push_back(v.norm());
-    else
-      field.values = h5::read_reals(group, name);
+    } else {
+      field.width = static_cast<int>(width);
+      field.values = h5::read_reals(group, name, field.width);
+    }
     fields.push_back(std::move(field));
   }
   return fields;
 }
 
-Bonds read_bonds(hid_t group, const std::string& family, std::size_t elements) {
+Bonds read_bonds(hid_t group, const std::string& family, std::size_t elements, Columns columns) {
   Bonds bonds;
   bonds.family = family;
   if (h5::has_attribute(group, "law")) bonds.law = h5::text_attribute(group, "law");
@@ -77,6 +82,9 @@ Bonds read_bonds(hid_t group, const std::string& family, std::size_t elements) {
   for (const auto& [i, j] : bonds.ends)
     if (i < 0 || j < 0 || std::max<std::size_t>(i, j) >= elements)
       throw MachineFailure("bond family '" + family + "' names an element that its frame does not hold");
+  if (has(group, "id")) bonds.id = h5::read_integers(group, "id");
+  for (std::size_t b = bonds.id.size(); b < bonds.ends.size(); ++b) bonds.id.push_back(static_cast<std::int64_t>(b));
+  bonds.id.resize(bonds.ends.size());
   bonds.state.assign(bonds.ends.size(), State::intact);
   if (has(group, "state")) {
     const auto state = h5::read_integers(group, "state");
@@ -84,7 +92,7 @@ Bonds read_bonds(hid_t group, const std::string& family, std::size_t elements) {
       bonds.state[b] = static_cast<State>(std::clamp<std::int64_t>(state[b], 0, 2));
   }
   bonds.has_damage = has(group, "damage");
-  bonds.fields = read_fields(group, {"ends", "id", "state"}, bonds.ends.size());
+  bonds.fields = read_fields(group, {"ends", "id", "state"}, bonds.ends.size(), columns);
   return bonds;
 }
 
@@ -124,7 +132,7 @@ FrameReader::FrameReader(const std::filesystem::path& file, SymbolicLinks links)
 
 FrameReader::~FrameReader() = default;
 
-Frame FrameReader::read(const FrameHead& head) const {
+Frame FrameReader::read(const FrameHead& head, Columns columns) const {
   const h5::Silence silence;
   const Handle group = file_->frame(head.name);
   const Handle elements = h5::open_group(group.id(), "elements");
@@ -139,7 +147,7 @@ Frame FrameReader::read(const FrameHead& head) const {
   if (frame.radius.size() != count || frame.id.size() != count ||
       (!frame.displacement.empty() && frame.displacement.size() != count))
     throw MachineFailure("the columns of frame " + head.name + " have different lengths");
-  frame.fields = read_fields(elements.id(), {"id", "position", "radius"}, count);
+  frame.fields = read_fields(elements.id(), {"id", "position", "radius"}, count, columns);
   if (has(group.id(), "walls")) {
     const std::vector<Real> numbers = h5::read_reals(group.id(), "walls", 6);
     for (std::size_t k = 0; k + 6 <= numbers.size(); k += 6)
@@ -149,7 +157,7 @@ Frame FrameReader::read(const FrameHead& head) const {
   if (!has(group.id(), "bonds")) return frame;
   const Handle bonds = h5::open_group(group.id(), "bonds");
   for (const std::string& family : h5::names_in(bonds.id()))
-    frame.bonds.push_back(read_bonds(h5::open_group(bonds.id(), family).id(), family, count));
+    frame.bonds.push_back(read_bonds(h5::open_group(bonds.id(), family).id(), family, count, columns));
   return frame;
 }
 
@@ -157,17 +165,23 @@ Breaks FrameReader::breaks() const {
   const h5::Silence silence;
   Breaks log;
   if (!has(file_->handle.id(), "breaks")) return log;
-  const Handle group = h5::open_group(file_->handle.id(), "breaks");
-  if (!has(group.id(), "time")) return log;
-  log.time = h5::read_reals(group.id(), "time");
-  if (has(group.id(), "mode")) log.mode = words(group.id(), "mode");
-  if (has(group.id(), "energy")) log.energy = h5::read_reals(group.id(), "energy");
+  const Handle handle = h5::open_group(file_->handle.id(), "breaks");
+  const hid_t group = handle.id();
+  if (!has(group, "time")) return log;
+  log.time = h5::read_reals(group, "time");
+  if (has(group, "mode")) log.mode = words(group, "mode");
+  if (has(group, "energy")) log.energy = h5::read_reals(group, "energy");
+  if (has(group, "family")) log.family = words(group, "family");
+  if (has(group, "step")) log.step = h5::read_integers(group, "step");
+  if (has(group, "bond")) log.bond = h5::read_integers(group, "bond");
+  if (has(group, "element")) log.element = h5::read_integers(group, "element");
+  if (has(group, "place")) log.place = vectors(group, "place");
   // A run that was killed may have left columns of different lengths; the rows that are whole count.
   std::size_t rows = log.time.size();
   if (!log.mode.empty()) rows = std::min(rows, log.mode.size());
-  log.time.resize(rows);
+  const auto cut = [rows](auto& column) { column.resize(std::min(rows, column.size())); };
+  cut(log.time), cut(log.energy), cut(log.family), cut(log.step), cut(log.bond), cut(log.element), cut(log.place);
   log.mode.resize(rows, "broken");
-  log.energy.resize(std::min(rows, log.energy.size()));
   return log;
 }
 

@@ -21,19 +21,24 @@ struct FrameHead {
   Real time = 0;
   std::int64_t step = 0;
   bool picture = false;  ///< the watcher asked for a picture of this frame
-  std::string view;      ///< x, y or z: the axis along which it is to be seen; empty: not said
+  std::string view;      ///< axes along which it is to be seen, "z y"; empty: not said
 };
+
+/// What is read of columns that hold several numbers a row: of vectors the length, and of others nothing; or all of them.
+enum class Columns { drawable, whole };
 
 /// A recorded column besides those that every frame has.
 struct FieldValues {
   std::string name, unit;
-  std::vector<Real> values;  ///< one a row; of a vector its length
-  bool is_length = false;    ///< of a vector
+  std::vector<Real> values;  ///< `width` a row, row by row
+  bool is_length = false;    ///< of a vector, whose numbers were left behind
+  int width = 1;             ///< 3 of vectors, 4 of quaternions (w x y z), 6 of symmetric tensors (xx xy xz yy yz zz)
 };
 
 struct Bonds {
   std::string family;
-  std::string law;                         ///< attribute "law" of the group, or empty
+  std::string law;  ///< attribute "law" of the group, or empty
+  std::vector<std::int64_t> id;
   std::vector<std::array<Index, 2>> ends;  ///< rows of the frame's elements
   std::vector<State> state;                ///< as long as ends; all intact where the file has none
   bool has_damage = false;                 ///< the family can soften
@@ -51,11 +56,14 @@ struct Frame {
   std::vector<std::array<Vec3, 2>> walls;  ///< lines that show them
 };
 
-/// Every break of the run, in the order in which they were booked.
+/// Every break of the run, in the order in which they were booked. Columns that a file lacks are empty.
 struct Breaks {
   std::vector<Real> time;
   std::vector<std::string> mode;
   std::vector<Real> energy;
+  std::vector<std::string> family;
+  std::vector<std::int64_t> step, bond, element;  ///< element: the one that failed; -1 where a bond broke by itself
+  std::vector<Vec3> place;
 };
 
 class FrameReader {
@@ -69,8 +77,8 @@ class FrameReader {
   const std::vector<FrameHead>& frames() const { return frames_; }  ///< in the order of their steps
   int unreadable_frames() const { return unreadable_; }             ///< links whose target is missing or damaged
 
-  Frame read(const FrameHead&) const;  ///< throws MachineFailure
-  Breaks breaks() const;               ///< empty where there is none
+  Frame read(const FrameHead&, Columns = Columns::drawable) const;  ///< throws MachineFailure
+  Breaks breaks() const;                                            ///< empty where there is none
 
   /// The texts under /meta by their names: name, resolved, version, packing, ...
   std::map<std::string, std::string> meta() const;

@@ -31,7 +31,7 @@ bool is_plain_name(std::string_view name) {
 bool can_be_listed(std::string_view file) {
   for (const std::string_view below : {"curves/", "frames/"})
     if (file.starts_with(below)) return is_plain_name(file.substr(below.size()));
-  for (const Manifest::Of of : {Manifest::Of::run, Manifest::Of::batch, Manifest::Of::study})
+  for (const Manifest::Of of : Manifest::all)
     if (file == Manifest::name_of(of)) return false;
   return is_plain_name(file);
 }
@@ -54,7 +54,15 @@ bool stands(const Path& file) {
 
 }  // namespace
 
-const char* Manifest::maker(Of of) { return of == Of::run ? "run" : of == Of::batch ? "batch" : "study"; }
+const char* Manifest::maker(Of of) {
+  switch (of) {
+    case Of::run: return "run";
+    case Of::batch: return "batch";
+    case Of::study: return "study";
+    case Of::exported: return "export";
+  }
+  return "";
+}
 
 Path Manifest::place() const { return folder_ / name_of(of_); }
 

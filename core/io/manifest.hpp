@@ -1,7 +1,7 @@
 #pragma once
 // The list of the files that a run made: `run.files`, a line that says so, then a path on each line. A folder is that
-// of a run if it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`, and a
-// study, `study.files`.
+// of a run if it has one, and what is not on it is somebody else's. A batch keeps one of its own, `batch.files`, a
+// study, `study.files`, and an export, `export.files`.
 
 #include <filesystem>
 #include <optional>
@@ -16,8 +16,9 @@ namespace beadwork {
 class Manifest {
  public:
   static constexpr const char* file_name = "run.files";
-  enum class Of { run, batch, study };
-  /// "run", "batch" or "study".
+  enum class Of { run, batch, study, exported };
+  static constexpr Of all[] = {Of::run, Of::batch, Of::study, Of::exported};
+  /// "run", "batch", "study" or "export".
   static const char* maker(Of of);
   /// Of the list: "batch.files".
   static std::string name_of(Of of) { return std::string(maker(of)) + ".files"; }

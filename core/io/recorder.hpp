@@ -45,7 +45,7 @@ struct FrameRequest {
   std::vector<const Column*> elements;  ///< besides id, position and radius, which are always written
   std::vector<FamilyRequest> bonds;     ///< families to write
   bool picture = false;                 ///< the report is to draw this frame
-  std::string view = {};                ///< axis along which it looks: x, y, z; empty: it chooses
+  std::string view = {};                ///< axes along which it looks, "z y"; empty: it chooses
 };
 
 class Recorder {

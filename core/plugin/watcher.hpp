@@ -18,7 +18,7 @@ inline constexpr const char* every_field = "all";
 struct FramePlan {
   std::vector<std::string> fields;
   bool picture = false;
-  std::string view = {};  ///< axis along which the report looks at the frame: x, y, z; empty: it chooses
+  std::string view = {};  ///< axes along which the report looks at the frame, "z y"; empty: it chooses
 };
 
 /// What the loop shows to a watcher.

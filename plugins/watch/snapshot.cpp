@@ -1,3 +1,4 @@
+#include "core/base/text.hpp"
 #include "core/plugin/kinds.hpp"
 
 namespace beadwork {
@@ -15,14 +16,15 @@ class Snapshot final : public Watcher {
                                           .role = Role::fields}};
   Param<bool> picture{
       this, {.name = "picture", .doc = "Whether the report draws these frames in any case", .fallback = "no"}};
-  Param<std::string> view{this,
-                          {.name = "view",
-                           .doc = "Axis along which the report looks at these frames; where absent, at an interface or "
-                                  "a crack from its edge, else at the broadest face",
-                           .optional = true,
-                           .choices = {"x", "y", "z"}}};
+  Param<std::vector<std::string>> view{
+      this,
+      {.name = "view",
+       .doc = "Axes along which the report looks at these frames, such as 'z y'; where absent, at an interface or "
+              "a crack from its edge, else at the broadest face",
+       .optional = true,
+       .choices = {"x", "y", "z"}}};
 
-  void look(Sight& sight) override { sight.frame({*fields, *picture, view.given() ? *view : ""}); }
+  void look(Sight& sight) override { sight.frame({*fields, *picture, view.given() ? join(*view, " ") : ""}); }
 };
 
 }  // namespace beadwork

@@ -1,13 +1,12 @@
 // The report of a batch: its table, and the curves of its runs laid over one another.
 
 #include <algorithm>
-#include <deque>
-#include <map>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "core/io/manifest.hpp"
+#include "workbench/report/overlay.hpp"
 #include "workbench/report/report.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -72,12 +71,26 @@ bool is_plain_name(const std::string& name) {
   return !name.empty() && name.find('/') == std::string::npos && name != "." && name != "..";
 }
 
+/// "beams" of "beams/young=1-GPa"; empty where the run stands in no sweep.
+std::string sweep_of(const Row& run) {
+  const std::size_t slash = run.front().find('/');
+  return slash == std::string::npos ? "" : run.front().substr(0, slash);
+}
+
+/// Whether the run's folder lies in that of the batch, or in that of its sweep.
+bool is_inside(const Row& run) {
+  const std::string sweep = sweep_of(run);
+  return sweep.empty() ? is_plain_name(run.front())
+                       : is_plain_name(sweep) && is_plain_name(run.front().substr(sweep.size() + 1));
+}
+
 /// "young = 30 GPa, seed = 2": what tells this run from the others.
 std::string label_of(const Batch& batch, const Row& run) {
   std::string label;
   for (std::size_t k = 1; k < batch.status; ++k) {
-    const bool varies =
-        std::any_of(batch.runs.begin(), batch.runs.end(), [&](const Row& other) { return other[k] != run[k]; });
+    const bool varies = std::any_of(batch.runs.begin(), batch.runs.end(), [&](const Row& other) {
+      return sweep_of(other) == sweep_of(run) && other[k] != run[k];
+    });
     if (varies) label += (label.empty() ? "" : ", ") + batch.names[k] + " = " + run[k];
   }
   return label.empty() ? run.front() : label;
@@ -93,7 +106,7 @@ std::string table(const Batch& batch, const fs::path& folder) {
   for (const std::string& name : batch.names) head += "<th>" + escaped(name) + "</th>";
   for (const Row& run : batch.runs) {
     std::error_code error;  // of a name that is too long
-    const bool linked = is_plain_name(run.front()) && fs::exists(folder / run.front() / "report.html", error);
+    const bool linked = is_inside(run) && fs::exists(folder / run.front() / "report.html", error);
     body += "<tr><th>" +
             (linked ? "<a href=\"" + escaped(run.front()) + "/report.html\">" + escaped(run.front()) + "</a>"
                     : escaped(run.front())) +
@@ -106,55 +119,55 @@ std::string table(const Batch& batch, const fs::path& folder) {
                              "</tbody></table></div>");
 }
 
-/// What the runs recorded of curves, with what there is to say of it.
-struct Found {
-  std::deque<Curve> curves;  // do not move
-  std::vector<std::string> names;
-  std::map<std::string, std::vector<std::pair<std::string, const Curve*>>> by_name;
-  std::string notes;
-};
-
-void add_run(const fs::path& place, const std::string& label, Found& found) {
-  Run run = open_curves(place);
-  for (Curve& curve : run.curves) {
-    if (is_ledger(curve)) continue;
-    if (!found.by_name.contains(curve.name)) found.names.push_back(curve.name);
-    found.curves.push_back(std::move(curve));
-    found.by_name[found.curves.back().name].emplace_back(label, &found.curves.back());
-  }
-  for (const std::string& sentence : run.notes) found.notes += "<li>" + escaped(label + ": " + sentence) + "</li>";
+std::vector<std::string> sweeps_of(const Batch& batch) {
+  std::vector<std::string> sweeps;
+  for (const Row& run : batch.runs)
+    if (std::find(sweeps.begin(), sweeps.end(), sweep_of(run)) == sweeps.end()) sweeps.push_back(sweep_of(run));
+  return sweeps;
 }
 
-Found curves_of(const Batch& batch, const fs::path& folder) {
-  Found found;
+/// Of one sweep.
+Overlay curves_of(const Batch& batch, const std::string& sweep, const fs::path& folder) {
+  Overlay overlay;
   for (const Row& row : batch.runs) {
+    if (sweep_of(row) != sweep) continue;
     const std::string label = label_of(batch, row);
     std::error_code error;
-    if (!is_plain_name(row.front()) || !fs::is_directory(folder / row.front(), error)) {
-      found.notes += "<li>" + escaped(label) + " has not begun.</li>";
-      continue;
-    }
-    try {
-      add_run(folder / row.front(), label, found);
-    } catch (const std::exception& failure) {
-      found.notes += "<li>" + escaped(label + ": " + failure.what()) + "</li>";
-    }
+    if (is_inside(row) && fs::is_directory(folder / row.front(), error))
+      overlay.add(folder / row.front(), label);
+    else
+      overlay.note(label + " has not begun.");
   }
-  return found;
+  return overlay;
+}
+
+/// Means over seeds; nothing where there are none.
+std::string means(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "means.csv", error)) return "";
+  std::string head, body;
+  const std::vector<Row> rows = rows_of(read_text(folder / "means.csv", longest_table));
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::string line;
+    for (const std::string& field : rows[r]) line += r ? cell(field) : "<th>" + escaped(field) + "</th>";
+    (r ? body : head) += "<tr>" + line + "</tr>\n";
+  }
+  return section("Means and scatter over seeds", "<div style=\"overflow-x:auto\"><table><thead>" + head +
+                                                     "</thead><tbody>" + body + "</tbody></table></div>");
 }
 
 std::string batch_page(const fs::path& folder) {
   const Batch batch = batch_in(folder);
-  Found found = curves_of(batch, folder);
-  std::string charts;
-  for (const std::string& name : found.names) charts += overlaid(found.by_name[name]);
-  const std::string notes =
-      found.notes.empty() ? "" : "<section class=\"notes\"><ul>" + found.notes + "</ul></section>\n";
+  std::string notes, charts;
+  for (const std::string& sweep : sweeps_of(batch)) {
+    const Overlay curves = curves_of(batch, sweep, folder);
+    notes += curves.notes();
+    charts += curves.charts(sweep.empty() ? "Curves" : "Curves of " + sweep);
+  }
   const std::string title = escaped(name_of_folder(folder));
-  const std::string curves = charts.empty() ? "" : section("Curves", "<div class=\"charts\">" + charts + "</div>");
   return page_with(title + " – Beadwork",
                    "<h1>" + title + "</h1><p>" + plural(static_cast<std::int64_t>(batch.runs.size()), "run") + "</p>",
-                   notes + curves + table(batch, folder));
+                   notes + charts + means(folder) + table(batch, folder));
 }
 
 }  // namespace

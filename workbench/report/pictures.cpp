@@ -118,11 +118,11 @@ std::map<std::string, std::vector<std::int64_t>> sets_of(Run& run) {
 }  // namespace
 
 std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all) {
-  constexpr std::size_t most = 8;
   std::vector<record::FrameHead> flagged;
   std::copy_if(all.begin(), all.end(), std::back_inserter(flagged),
                [](const record::FrameHead& h) { return h.picture; });
   const std::vector<record::FrameHead>& from = flagged.empty() ? all : flagged;
+  const std::size_t most = flagged.empty() ? 8 : 24;  // those that were asked for, up to what a page can hold
   if (from.size() <= most) return from;
   std::vector<record::FrameHead> some;
   for (std::size_t k = 0; k < most; ++k) some.push_back(from[k * (from.size() - 1) / (most - 1)]);

@@ -93,10 +93,16 @@ bool is_ours(const std::filesystem::path& page) {
 
 std::string put_page(const std::filesystem::path& folder, Manifest::Of of, const std::string& page) {
   const std::filesystem::path file = folder / "report.html";
+  auto list = Manifest::read(folder, of);
+  if (!list) return put_page_at(file, page);
+  list->claim("report.html");
+  write_atomically(file, page);
+  return file.string();
+}
+
+std::string put_page_at(const std::filesystem::path& file, const std::string& page) {
   std::error_code error;
-  if (auto list = Manifest::read(folder, of))
-    list->claim("report.html");
-  else if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) && !is_ours(file))
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, error)) && !is_ours(file))
     throw DeckFailure("'" + file.string() +
                       "' is there already, and is no report of Beadwork: it is left alone. Rename it");
   write_atomically(file, page);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace beadwork {
 
@@ -15,6 +16,10 @@ std::string write_report(const std::filesystem::path& run_folder, const std::str
 std::string write_batch_report(const std::filesystem::path& batch_folder);
 /// Whether a batch has been run there.
 bool is_batch(const std::filesystem::path& folder);
+
+/// Several runs: their curves over one another, what differs in their decks, and what came of them, as an HTML file of
+/// that name. DeckFailure if one is no run, or if a file that is no page of Beadwork stands there.
+std::string write_comparison(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& file);
 
 /// The same of a study: its result and its curves.
 std::string write_study_report(const std::filesystem::path& folder);

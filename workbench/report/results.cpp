@@ -1,6 +1,8 @@
 // What a run has found, read from what it wrote: of its curves the largest forces and where they ended, of its summary
 // all numbers that say how it went.
 
+#include "workbench/report/results.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "core/io/file.hpp"
 #include "core/loop/bounded_json.hpp"
-#include "workbench/batch.hpp"
 #include "workbench/report/table.hpp"
 
 namespace beadwork {

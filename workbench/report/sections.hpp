@@ -32,7 +32,7 @@ struct Stage;
 /// What the frames recorded besides places, in colours with their bar.
 std::string field_pictures(const Stage&, const std::vector<record::Frame>& frames);
 
-/// Those that the run flagged, else all; of these at most eight, spread evenly from the first to the last.
+/// Those that the run flagged, at most 24, else all, at most eight: spread evenly from the first to the last.
 std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all);
 
 /// "opening 0.29 mm", read from the first curve that is drawn against something other than time; else empty.
@@ -45,6 +45,8 @@ std::size_t row_at(const Table&, const record::FrameHead&);
 /// Writes the page as report.html, which the list of the folder then names. DeckFailure if somebody else's page stands
 /// there.
 std::string put_page(const std::filesystem::path& folder, Manifest::Of of, const std::string& page);
+/// Writes a page that stands on no list. DeckFailure if something else than a page of Beadwork stands there.
+std::string put_page_at(const std::filesystem::path& file, const std::string& page);
 /// The whole page; title and texts are HTML already.
 std::string page_with(const std::string& title, const std::string& head, const std::string& body);
 /// Of a status: the class decides the badge's colour; one that nobody foresaw is shown as it is, in grey.

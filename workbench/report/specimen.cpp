@@ -195,20 +195,23 @@ Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown
   stage.interfaces = find_interfaces(shown);
   color_sets(stage, sets, first.position.size());
   const Weak weak = shown.empty() ? Weak{} : weak_bonds(shown.back(), stage.interfaces);
-  const auto [bodies, bonds, name] = choose_viewpoint(weak, rest.size(), wanted);
   const Box around = stage_box(stage, rest, shown);
-  stage.views.push_back(view_along(Show::bodies, name, bodies, around, margin));
-  if (bonds >= 0) {
+  const auto look = [&](const std::string& axis) {
+    const auto [bodies, bonds, name] = choose_viewpoint(weak, rest.size(), axis);
+    const View side = view_along(Show::bodies, name, bodies, around, margin);
+    stage.views.push_back(side);
+    if (bonds < 0) return;
     View plan = view_along(Show::bonds, stage.interfaces.empty() ? "broken bonds" : "bonds of the interface", bonds,
                            rest, margin);
     // One scale above the other where both have the same axis to the right, so that fronts stand in line.
-    View& side = stage.views.front();
     if (plan.camera.right == side.camera.right) {
       plan.camera.width = side.camera.width;
       plan.camera.centre += (side.camera.centre - plan.camera.centre).dot(plan.camera.right) * plan.camera.right;
     }
     stage.views.push_back(plan);
-  }
+  };
+  if (wanted.empty()) look("");
+  for (const char axis : wanted) look(std::string(1, axis));
   return stage;
 }
 
@@ -245,8 +248,12 @@ Counts counts(const Stage& stage, const record::Frame& frame) {
 
 std::string wanted_view(const std::vector<record::Frame>& shown) {
   std::string wanted;
-  for (const record::Frame& frame : shown)
-    if (frame.head.view == "x" || frame.head.view == "y" || frame.head.view == "z") wanted = frame.head.view;
+  for (const record::Frame& frame : shown) {
+    std::string axes;
+    for (const char letter : frame.head.view)
+      if (letter >= 'x' && letter <= 'z' && axes.find(letter) == std::string::npos) axes += letter;
+    if (!axes.empty()) wanted = axes;
+  }
   return wanted;
 }
 

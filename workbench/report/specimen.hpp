@@ -52,11 +52,11 @@ struct Counts {
   std::size_t elastic = 0, softening = 0, broken = 0;
 };
 
-/// The stage for frames that show one specimen; `first` is its state of rest, `wanted` the axis to look along (may be
-/// empty).
+/// The stage for frames that show one specimen; `first` is its state of rest, `wanted` the axes to look along, "zy" (may
+/// be empty).
 Stage set_up(const record::Frame& first, const std::vector<record::Frame>& shown,
              const std::map<std::string, std::vector<std::int64_t>>& sets, const std::string& wanted);
-/// The axis that the newest of these frames wants to be looked along; empty if none says.
+/// The axes that the newest of these frames wants to be looked along, "zy"; empty if none says.
 std::string wanted_view(const std::vector<record::Frame>& shown);
 
 /// Bonds of the interfaces by state; of all families if there is no interface.
