@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
+#include <optional>
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
@@ -24,7 +24,7 @@ struct BatchArguments {
   std::string out, engine = "local";
   std::vector<std::string> variations;
   Words words;
-  int jobs = 0, threads = 0;
+  int jobs = 0, threads = 0, most_runs = 10000;
   bool keep_going = false;
 };
 
@@ -34,31 +34,9 @@ Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
   return wanted.among(runs);
 }
 
-/// Which deck it is varies first where there are several.
-constexpr const char* deck_column = "deck";
-
-std::string name_of(const std::string& deck) { return fs::path(deck).stem().string(); }
-
-BatchRun run_of(const BatchArguments& arguments, const std::string& deck, const std::vector<Variation>& variations,
-                const std::vector<std::string>& values) {
-  BatchRun run;
-  run.name = folder_name(variations, values);
-  run.values = values;
-  run.folder = fs::absolute(arguments.out) / run.name;
-  run.deck = arguments.deck;
-  run.deck.path = deck;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const std::string setting = variations[k].name + "=" + values[k];
-    if (k > 0 || arguments.decks.size() == 1) run.deck.settings.push_back(setting);
-    run.title += (k ? ", " : "") + setting;
-  }
-  if (values.empty()) run.title = run.name;
-  return run;
-}
-
 void write_command(BatchRun& run, int threads, const Words& words) {
   run.command = {fs::canonical("/proc/self/exe").string(),
-                 "run",
+                 run.is_study ? "calibrate" : "run",
                  fs::absolute(run.deck.path).string(),
                  "--quiet",
                  "--label",
@@ -68,50 +46,68 @@ void write_command(BatchRun& run, int threads, const Words& words) {
                  "--out",
                  run.folder.string(),
                  "--threads",
-                 std::to_string(threads),
-                 "--resume-or-begin"};
-  for (const std::string& setting : run.deck.settings) run.command.insert(run.command.end(), {"--set", setting});
+                 std::to_string(threads)};
+  if (run.is_study)
+    run.command.insert(run.command.end(), {"--jobs", "1"});
+  else
+    run.command.emplace_back("--resume-or-begin");
+  for (const Override& each : run.deck.request().overrides)
+    run.command.insert(run.command.end(), {"--set", each.name + "=" + each.value});
   if (run.deck.no_plugins) run.command.push_back("--no-plugins");
   for (const std::string& library : run.deck.libraries)
     run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
 }
 
-std::vector<BatchRun> runs_of(const BatchArguments& arguments, const std::vector<Variation>& variations) {
-  std::vector<BatchRun> runs;
-  const auto all = combinations(variations);  // all of the first deck, then of the second ...
-  const std::size_t each = all.size() / arguments.decks.size();
-  for (std::size_t k = 0; k < all.size(); ++k)
-    runs.push_back(run_of(arguments, arguments.decks[k / each], variations, all[k]));
-  std::map<std::string, const BatchRun*> by_folder;
-  for (const BatchRun& run : runs)
-    if (const auto [twin, is_new] = by_folder.emplace(run.name, &run); !is_new)
-      throw DeckFailure(fmt::format(
-          "error: the runs with {} and with {} would write the same folder, '{}': give values, and decks, whose names "
-          "differ in letters and digits",
-          shell_quoted(twin->second->title), shell_quoted(run.title), (fs::path(arguments.out) / run.name).string()));
-  return runs;
+bool names_sweeps(const Node& root) {
+  return std::any_of(root.children.begin(), root.children.end(), [](const auto& section) {
+    return section->tag == "study" && std::any_of(section->children.begin(), section->children.end(),
+                                                  [](const auto& child) { return child->tag == "sweep"; });
+  });
 }
 
-std::vector<Variation> variations_of(const BatchArguments& arguments) {
+/// The lists of a deck that holds a study made of lists of runs; nothing if it is no such deck.
+std::optional<std::vector<RunList>> lists_of_study(const BatchArguments& arguments) {
+  if (arguments.decks.size() != 1) return std::nullopt;
+  DeckArguments deck = arguments.deck;
+  deck.path = arguments.decks.front();
+  const DeckRequest request = deck.request();
+  Complaints unheard;
+  const auto read = read_deck(request.path, request.overrides, unheard);
+  if (!read || !names_sweeps(*read->root)) return std::nullopt;  // what is wrong with it is told as that of a run
+  const Loaded loaded = load_checked(request);
+  if (!arguments.variations.empty())
+    refuse(loaded.scene->studies.front()->at(),
+           "this deck says itself what varies, and takes no --vary; --set gives its parameters other values");
+  std::vector<RunList> lists;
+  for (const Study* study : loaded.scene->studies) lists.push_back(study->runs());
+  return lists;
+}
+
+std::vector<BatchRun> all_runs(const BatchArguments& arguments) {
+  if (const auto lists = lists_of_study(arguments)) {
+    DeckArguments common = arguments.deck;
+    common.settings.clear();  // they were for the study
+    common.files.clear();
+    return runs_of(*lists, common, arguments.out);
+  }
   std::vector<Variation> variations;
-  if (arguments.decks.size() > 1) {
-    variations.push_back({deck_column, {}});
-    for (const std::string& deck : arguments.decks) variations.back().values.push_back(name_of(deck));
-  }
-  for (const std::string& text : arguments.variations) {
-    variations.push_back(variation_of(text));
-    for (std::size_t k = 0; k + 1 < variations.size(); ++k)
-      if (variations[k].name == variations.back().name)
-        throw DeckFailure(fmt::format("error: --vary {} is given twice", variations[k].name));
-  }
-  return variations;
+  for (const std::string& text : arguments.variations) variations.push_back(variation_of(text));
+  return runs_of({list_of(arguments.decks, variations)}, arguments.deck, arguments.out);
+}
+
+void refuse_too_many(const std::vector<BatchRun>& runs, int most) {
+  if (runs.size() > static_cast<std::size_t>(most))
+    throw DeckFailure(fmt::format("error: these are {} runs, more than {}; if they are meant: --most-runs {}",
+                                  runs.size(), most, runs.size()));
 }
 
 int batch(const BatchArguments& arguments) {
-  const std::vector<Variation> variations = variations_of(arguments);
-  std::vector<BatchRun> runs = runs_of(arguments, variations);
-  const auto [refused, mistakes] = check_decks(runs);
-  write_error(mistakes);
+  std::vector<BatchRun> runs = all_runs(arguments);
+  refuse_too_many(runs, arguments.most_runs);
+  DeckChecks checks;
+  for (BatchRun& run : runs) checks.check(run, runs);
+  const std::size_t refused = checks.refused();
+  write_error(checks.text(runs.size()));
   if (refused > 0 && !arguments.keep_going) {
     write_error(refused < runs.size() ? "nothing was run; --keep-going runs the others\n" : "nothing was run\n");
     return worst(runs);
@@ -127,17 +123,16 @@ int batch(const BatchArguments& arguments) {
   say("{} runs, {} of them done already{}\n", runs.size(), done, refused ? fmt::format(", {} refused", refused) : "");
   if (outdated > 0) say("{} of them were done with other data files, and are run again\n", outdated);
   std::fflush(stdout);
-  const fs::path table = folder.claim("batch.csv");
   if (arguments.engine == "slurm") {
-    write_atomically(table, batch_table(variations, runs));
+    write_atomically(folder.claim("batch.csv"), csv_of(batch_table(runs)));
     submit_to_slurm(runs, shares.jobs, shares.threads, folder);
     std::erase_if(runs, [](const BatchRun& run) { return !run.refused; });  // the others have not run yet
     return worst(runs);
   }
-  run_here(runs, shares.jobs, variations, table);
+  run_here(runs, shares.jobs, folder);
   if (worst(runs) == static_cast<int>(ExitCode::interrupted))
     say("interrupted; go on with: {}\n", command_line(arguments.words));
-  say("{}\n", table.string());
+  say("{}\n", (folder.root() / "batch.csv").string());
   return worst(runs);
 }
 
@@ -163,6 +158,9 @@ void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
       "Example: beadwork batch deck.xml --out out/sweep --vary 'young=30 GPa,40 GPa' --vary seed=1,2,3 --jobs 2\n"
       "Give the same command again: what is done is left alone, what was interrupted or ran out of disk goes on, the "
       "rest begins anew.\n"
+      "A deck with <study><sweep .../></study> says itself which decks run with which values, and which wait for "
+      "which: "
+      "beadwork batch study.xml --out out/study\n"
       "Several decks, 'beadwork batch decks/*.xml --out out/all', share one table: its column 'deck' has their names.\n"
       "beadwork report out/sweep lays the curves of the runs over one another.");
   auto arguments = std::make_shared<BatchArguments>();
@@ -179,6 +177,9 @@ void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
                    "Threads of each run; where absent the processors that it may use, shared out among the runs at "
                    "once, and 1 with Slurm")
       ->check(CLI::Range(1, 1024));
+  verb->add_option("--most-runs", arguments->most_runs, "Refuses more runs than these")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   verb->add_flag("--keep-going", arguments->keep_going, "Runs those whose decks are in order, though others are not");
   verb->add_option("--engine", arguments->engine, "local: processes of this machine; slurm: an array of jobs")
       ->check(CLI::IsMember({"local", "slurm"}))

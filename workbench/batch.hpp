@@ -2,35 +2,42 @@
 // Many runs of decks, each with other values of their parameters and a folder of its own.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/io/own_folder.hpp"
+#include "core/io/result_tables.hpp"
 #include "core/loop/same_deck.hpp"
+#include "core/plugin/run_list.hpp"
+#include "workbench/report/results.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
 
-/// What a run has found, as columns of the table: ("force: largest force [N]", "62.99").
-using Results = std::vector<std::pair<std::string, std::string>>;
-
 struct BatchRun {
-  std::string name;                 ///< "young=30-GPa,seed=2": also that of its folder
-  std::string title;                ///< "young=30 GPa, seed=2": what is shown
-  std::vector<std::string> values;  ///< of the parameters that vary
+  std::string name;   ///< "young=30-GPa,seed=2": that of its folder, below that of the batch
+  std::string title;  ///< "young=30 GPa, seed=2": what is shown
+  std::vector<std::pair<std::string, std::string>> values;  ///< of what varies
   std::filesystem::path folder;
   DeckArguments deck;                ///< with its values
+  std::vector<std::size_t> needs;    ///< runs that are to be done before
   std::vector<std::string> command;  ///< beadwork run ...
   std::string deck_sha256;
-  FileSums files;        ///< that its deck names for data, as they are now
-  bool refused = false;  ///< its deck has errors
+  FileSums files;          ///< that its deck names for data, as they are now
+  bool refused = false;    ///< its deck has errors
+  bool postponed = false;  ///< its deck cannot be read before those are done which it needs
+  bool is_study = false;   ///< a calibration
   bool done = false;
   bool outdated = false;         ///< it was done, but with other data files
+  std::string missing;           ///< the run that it needs and that has failed
   int code = -1;                 ///< exit code; -1 before it has ended
   std::vector<std::string> row;  ///< of the table, from "status" to "exit_reason", as note_row read it last
-  Results results;
+  Results results;               ///< columns of the table
 };
+
+// ---- Which runs there are (batch_plan.cpp)
 
 /// A parameter that varies: "young=30 GPa,40 GPa".
 struct Variation {
@@ -39,39 +46,56 @@ struct Variation {
 };
 /// DeckFailure if the text is no such thing.
 Variation variation_of(const std::string& text);
-/// All combinations, the last parameter varying fastest.
-std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& variations);
-/// Of the values, without what a folder's name should not have; of 200 letters at most, a long one ends in a check sum
-/// of all of it.
-std::string folder_name(const std::vector<Variation>& variations, const std::vector<std::string>& values);
+/// All combinations, the last parameter varying fastest, as a list without a name.
+RunList list_of(const std::vector<std::string>& decks, const std::vector<Variation>& variations);
+/// The runs of these lists, list by list, deck by deck; `out` is the folder of all. DeckFailure if two would write one
+/// folder, if lists wait for one another, or for none that there is.
+std::vector<BatchRun> runs_of(const std::vector<RunList>& lists, const DeckArguments& common,
+                              const std::filesystem::path& out);
+/// The names of what varies in any of them, in the order in which they are met.
+std::vector<std::string> parameters_of(const std::vector<BatchRun>& runs);
 
-struct DeckCheck {
-  std::size_t refused = 0;  ///< runs
-  std::string text;         ///< what is wrong, and warnings, each once with the runs that it concerns
+// ---- Whether their decks are in order (batch_check.cpp)
+
+/// Checks decks, each as its process will see it, marks those runs that are done, refused or postponed, and gathers what
+/// is wrong, each mistake once with the runs that have it.
+class DeckChecks {
+ public:
+  /// `all`: the runs among which those stand that it needs.
+  void check(BatchRun& run, const std::vector<BatchRun>& all);
+  std::size_t refused() const { return refused_; }
+  /// What is wrong, and warnings.
+  std::string text(std::size_t all) const;
+
+ private:
+  void note(const std::string& mistake, const BatchRun& run);
+  std::vector<std::string> order_;
+  std::map<std::string, std::vector<const BatchRun*>> who_;
+  std::map<std::vector<std::string>, FileSums> sums_;  // of files that many runs read
+  std::size_t refused_ = 0;
 };
-/// Checks the decks of all runs, each as its process will see it, and marks those that are done and those that are
-/// refused.
-DeckCheck check_decks(std::vector<BatchRun>& runs);
+
+// ---- What came of them (batch_table.cpp, batch_means.cpp)
 
 /// True if a run ended there, in order, with the data files that there are now. DeckFailure if it was another deck, or
 /// other values, that ran.
 bool is_done(BatchRun& run);
 /// Reads what the run says of itself now.
 void note_row(BatchRun& run);
-
-/// What summary.json and the curves of a run that has ended say.
-Results results_of(const std::filesystem::path& folder);
-/// The runs and what came of them as it was noted last, as CSV.
-std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs);
-
+/// The runs and what came of them as it was noted last.
+ResultTable batch_table(const std::vector<BatchRun>& runs);
+/// Means and scatter (standard deviation of one run) over seeds: a row for each group of runs that differ in their seeds
+/// only, and are done. Without rows where no group has two.
+ResultTable batch_means(const std::vector<BatchRun>& runs);
 /// The code that tells most: a failed run outranks an interrupted one.
 int worst(const std::vector<BatchRun>& runs);
 
-/// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites `table`
+// ---- How they are run
+
+/// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites the tables
 /// whenever one ends. Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when
 /// this process is killed. A run that another process is still at is waited for.
-void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations,
-              const std::filesystem::path& table);
+void run_here(std::vector<BatchRun>& runs, int at_once, OwnFolder& folder);
 
 /// Writes a script for Slurm and submits it; `at_once` = 0 leaves that to Slurm. MachineFailure, naming the script, if
 /// there is no sbatch here.

@@ -1,5 +1,6 @@
 // Runs as processes of this machine, and the table of what came of them.
 
+#include <chrono>
 #include <cstdio>
 #include <set>
 
@@ -18,9 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 class Here final : public JobEvents {
+  using Clock = std::chrono::steady_clock;
+
  public:
-  Here(std::vector<BatchRun>& runs, const std::vector<Variation>& variations, const fs::path& table)
-      : runs_(runs), variations_(variations), table_(table) {
+  Here(std::vector<BatchRun>& runs, OwnFolder& folder)
+      : runs_(runs), folder_(folder), table_(folder.claim("batch.csv")) {
     for (BatchRun& run : runs_) {
       if (run.done || run.refused) {
         ++ended_;
@@ -40,10 +43,56 @@ class Here final : public JobEvents {
   }
 
  private:
-  // Runs that have ended are not read again: there may be many.
+  // Runs that have ended are not read again, and long tables are not written at each end: there may be many.
+  void write_now_and_then() {
+    constexpr std::size_t few = 300;
+    constexpr std::chrono::seconds patience{5};
+    if (runs_.size() <= few || Clock::now() - written_ > patience) write();
+  }
+
   void write() {
+    written_ = Clock::now();
     for (const std::size_t job : at_work_) note_row(*waiting_[job]);
-    write_atomically(table_, batch_table(variations_, runs_));
+    const ResultTable table = batch_table(runs_), means = batch_means(runs_);
+    write_atomically(table_, csv_of(table));
+    write_result_tables(folder_.claim("batch.h5"), {{"runs", table}, {"means", means}});
+    if (!means.rows.empty()) write_atomically(folder_.claim("means.csv"), csv_of(means));
+  }
+
+  Turn turn_of(std::size_t job) override {
+    BatchRun& run = *waiting_[job];
+    for (const std::size_t need : run.needs) {
+      const BatchRun& other = runs_[need];
+      if (other.done) continue;
+      const bool may_come = other.code < 0 && !other.refused;
+      if (may_come) return Turn::later;
+      skip(run, other);
+      return Turn::never;
+    }
+    return run.postponed ? turn_after_check(run) : Turn::now;
+  }
+
+  /// What it needs is there now, and so its deck can be read.
+  Turn turn_after_check(BatchRun& run) {
+    DeckChecks checks;
+    checks.check(run, runs_);
+    if (run.refused) {
+      progress_.hide();
+      write_error(checks.text(runs_.size()));
+      count_ended(run, "refused");
+      return Turn::never;
+    }
+    if (!run.done) return Turn::now;
+    run.code = 0;
+    count_ended(run, "done already");
+    return Turn::never;
+  }
+
+  void skip(BatchRun& run, const BatchRun& needed) {
+    run.missing = needed.name;
+    run.code = needed.code;
+    note_row(run);
+    count_ended(run, fmt::format("skipped: it needs '{}', which is not done", needed.name));
   }
 
   void began(std::size_t job) override { at_work_.insert(job); }
@@ -71,21 +120,28 @@ class Here final : public JobEvents {
     return true;
   }
 
-  void at_work(std::size_t jobs, double shares) override {
+  void at_work(const std::vector<JobShare>& jobs) override {
     if (jobs_.empty()) return;
+    std::vector<Progress::Part> parts;
+    for (const JobShare& each : jobs) parts.push_back({jobs_[each.job].name, each.share});
     progress_.show({.work = "batch",
-                    .detail = fmt::format("{} of {} runs done, {} at work", ended_, runs_.size(), jobs),
-                    .share = (static_cast<double>(here_) + shares) / static_cast<double>(jobs_.size())});
+                    .detail = fmt::format("{} of {} runs done, {} at work", ended_, runs_.size(), jobs.size()),
+                    .share = (static_cast<double>(here_) + sum_of(jobs)) / static_cast<double>(jobs_.size())},
+                   parts);
   }
 
   void note_done(BatchRun& run, const std::string& how) {
     run.done = run.code == 0;
     run.results = results_of(run.folder);
     note_row(run);
+    count_ended(run, how);
+  }
+
+  void count_ended(const BatchRun& run, const std::string& how) {
     ++ended_;
     ++here_;
     tell(fmt::format("[{}/{}] {}: {}", ended_, runs_.size(), run.name, how));
-    write();
+    write_now_and_then();
   }
 
   void tell(const std::string& line) {
@@ -95,12 +151,13 @@ class Here final : public JobEvents {
   }
 
   std::vector<BatchRun>& runs_;
-  const std::vector<Variation>& variations_;
+  OwnFolder& folder_;
   const fs::path table_;
   std::vector<BatchRun*> waiting_;
   std::vector<LocalJob> jobs_;  // of these, in their order
   std::set<std::size_t> at_work_;
   std::size_t ended_ = 0, here_ = 0;
+  Clock::time_point written_;
   Progress progress_{[](const std::string& line) {
     beadwork::say("{}\n", line);
     std::fflush(stdout);
@@ -109,10 +166,9 @@ class Here final : public JobEvents {
 
 }  // namespace
 
-void run_here(std::vector<BatchRun>& runs, int at_once, const std::vector<Variation>& variations,
-              const fs::path& table) {
+void run_here(std::vector<BatchRun>& runs, int at_once, OwnFolder& folder) {
   heed_signals();
-  Here(runs, variations, table).attend(at_once);
+  Here(runs, folder).attend(at_once);
 }
 
 }  // namespace beadwork

@@ -1,9 +1,9 @@
-// Which runs there are, what they are called, and whether their decks are in order.
+// Which runs there are, what they are called, and which wait for which.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "core/base/failure.hpp"
 #include "core/base/sha256.hpp"
@@ -11,6 +11,115 @@
 #include "workbench/batch.hpp"
 
 namespace beadwork {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Which deck it is varies first where there are several.
+constexpr const char* deck_column = "deck";
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+/// Of the values, without what a folder's name should not have; of 200 letters at most, a long one ends in a check sum
+/// of all of it.
+std::string folder_name(const Values& values) {
+  constexpr std::size_t longest = 200, sum = 12;
+  std::vector<std::string> pieces;
+  for (const auto& [name, value] : values) pieces.push_back(name + "=" + value);
+  const std::string whole = pieces.empty() ? "run" : join(pieces, ",");
+  const std::string name = as_file_name(whole);
+  if (name.size() <= longest) return name;
+  return name.substr(0, longest - sum - 1) + "_" + sha256(whole).substr(0, sum);
+}
+
+std::string title_of(const Values& values, const std::string& name) {
+  std::string title;
+  for (const auto& [parameter, value] : values) title += (title.empty() ? "" : ", ") + parameter + "=" + value;
+  return title.empty() ? name : title;
+}
+
+BatchRun run_of(const RunList& list, const std::string& deck, const std::vector<std::string>& row,
+                const DeckArguments& common, const fs::path& out) {
+  BatchRun run;
+  if (list.decks.size() > 1) run.values.emplace_back(deck_column, fs::path(deck).stem().string());
+  for (std::size_t k = 0; k < row.size(); ++k) run.values.emplace_back(list.parameters[k], row[k]);
+  run.name = folder_name(run.values);
+  run.title = title_of(run.values, run.name);
+  if (!list.name.empty()) {
+    run.name = list.name + "/" + run.name;
+    run.title = list.name + ": " + run.title;
+  }
+  run.folder = fs::absolute(out) / run.name;
+  run.deck = common;
+  run.deck.path = deck;
+  for (std::size_t k = 0; k < row.size(); ++k) run.deck.settings.push_back(list.parameters[k] + "=" + row[k]);
+  for (const Override& each : list.fixed) run.deck.settings.push_back(each.name + "=" + each.value);
+  for (const auto& [parameter, other] : list.from)
+    run.deck.settings.push_back(parameter + "=" + (fs::absolute(out) / other).string());
+  return run;
+}
+
+void refuse_twins(const std::vector<BatchRun>& runs, const fs::path& out) {
+  std::map<std::string, const BatchRun*> by_folder;
+  for (const BatchRun& run : runs)
+    if (const auto [twin, is_new] = by_folder.emplace(run.name, &run); !is_new)
+      throw DeckFailure(fmt::format(
+          "error: the runs with {} and with {} would write the same folder, '{}': give values, and decks, whose names "
+          "differ in letters and digits",
+          shell_quoted(twin->second->title), shell_quoted(run.title), (out / run.name).string()));
+}
+
+std::vector<std::string> waits_for(const RunList& list) {
+  std::vector<std::string> names = list.after;
+  for (const auto& [parameter, name] : list.from) names.push_back(name);
+  return names;
+}
+
+/// The lists of a name, with the places of their runs.
+class Lists {
+ public:
+  explicit Lists(const std::vector<RunList>& lists) : lists_(lists) {
+    for (std::size_t k = 0; k < lists.size(); ++k)
+      if (!index_.emplace(lists[k].name, k).second)
+        refuse(lists[k].at, fmt::format("there is a sweep '{}' already", lists[k].name));
+    for (const RunList& list : lists)
+      for (const std::string& name : waits_for(list))
+        if (!index_.contains(name))
+          refuse(list.at, fmt::format("'{}' waits for '{}', and there is no such sweep{}", list.name, name,
+                                      did_you_mean(name, names())));
+    for (const RunList& list : lists) refuse_circles(list, {list.name});
+  }
+  std::size_t at(const std::string& name) const { return index_.at(name); }
+
+ private:
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const RunList& list : lists_) all.push_back(list.name);
+    return all;
+  }
+  void refuse_circles(const RunList& list, std::vector<std::string> chain) const {
+    for (const std::string& name : waits_for(list)) {
+      const bool is_circle = std::find(chain.begin(), chain.end(), name) != chain.end();
+      chain.push_back(name);
+      if (is_circle) refuse(list.at, "sweeps wait for one another: " + join(chain, " waits for "));
+      refuse_circles(lists_[at(name)], chain);
+      chain.pop_back();
+    }
+  }
+  const std::vector<RunList>& lists_;
+  std::map<std::string, std::size_t> index_;
+};
+
+/// Whether two runs have the same values of what both vary; which deck it is tells nothing.
+bool agree(const BatchRun& one, const BatchRun& other) {
+  for (const auto& [name, value] : one.values)
+    for (const auto& [its_name, its_value] : other.values)
+      if (name == its_name && name != deck_column && value != its_value) return false;
+  return true;
+}
+
+}  // namespace
 
 Variation variation_of(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -25,92 +134,55 @@ Variation variation_of(const std::string& text) {
   return variation;
 }
 
-std::vector<std::vector<std::string>> combinations(const std::vector<Variation>& variations) {
-  constexpr std::size_t most = 100000;
-  std::vector<std::vector<std::string>> all{{}};
+RunList list_of(const std::vector<std::string>& decks, const std::vector<Variation>& variations) {
+  constexpr std::size_t most = 1000000;
+  RunList list{"", {}, decks, {}, {{}}, {}, {}, {}};
   for (const Variation& variation : variations) {
-    if (all.size() * variation.values.size() > most)
+    if (std::find(list.parameters.begin(), list.parameters.end(), variation.name) != list.parameters.end())
+      throw DeckFailure(fmt::format("error: --vary {} is given twice", variation.name));
+    if (list.rows.size() * variation.values.size() > most)
       throw DeckFailure(
           fmt::format("error: --vary {} makes more than {} runs of all combinations", variation.name, most));
+    list.parameters.push_back(variation.name);
     std::vector<std::vector<std::string>> longer;
-    for (const auto& values : all)
+    for (const auto& row : list.rows)
       for (const std::string& value : variation.values) {
-        longer.push_back(values);
+        longer.push_back(row);
         longer.back().push_back(value);
       }
-    all = std::move(longer);
+    list.rows = std::move(longer);
   }
-  return all;
+  return list;
 }
 
-std::string folder_name(const std::vector<Variation>& variations, const std::vector<std::string>& values) {
-  constexpr std::size_t longest = 200, sum = 12;
-  std::vector<std::string> pieces;
-  for (std::size_t k = 0; k < values.size(); ++k) pieces.push_back(variations[k].name + "=" + values[k]);
-  const std::string whole = pieces.empty() ? "run" : join(pieces, ",");
-  const std::string name = as_file_name(whole);
-  if (name.size() <= longest) return name;
-  return name.substr(0, longest - sum - 1) + "_" + sha256(whole).substr(0, sum);
-}
-
-namespace {
-
-std::string listed(const std::vector<const BatchRun*>& runs, std::size_t all) {
-  constexpr std::size_t shown = 4;
-  if (runs.size() == all && all > 1) return fmt::format("all {} runs", all);
-  std::string text;
-  for (std::size_t k = 0; k < runs.size() && k < shown; ++k) text += (k ? "; " : "") + runs[k]->title;
-  if (runs.size() > shown) text += fmt::format("; and {} more", runs.size() - shown);
-  return (runs.size() == 1 ? "run " : fmt::format("{} runs: ", runs.size())) + text;
-}
-
-}  // namespace
-
-DeckCheck check_decks(std::vector<BatchRun>& runs) {
-  constexpr std::size_t most_shown = 50;  // a deck of another program has a mistake in every line
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<const BatchRun*>> who;
-  const auto note = [&](const std::string& mistake, const BatchRun& run) {
-    auto& those = who[mistake];
-    if (those.empty()) order.push_back(mistake);
-    if (those.empty() || those.back() != &run) those.push_back(&run);
-  };
-  std::map<std::vector<std::string>, FileSums> sums;  // of files that many runs read
-  std::size_t bad = 0;
-  for (BatchRun& run : runs) {
-    Complaints complaints;
-    std::string failure;
-    ExitCode code = ExitCode::deck;
-    try {
-      const Loaded loaded = load_scene(run.deck.request(), complaints);
-      refuse_study(loaded, run.deck.path);
-      if (loaded.deck) run.deck_sha256 = loaded.deck->sha256;
-      if (complaints.errors() == 0) {
-        const auto files = loaded.scene->files();
-        if (!sums.contains(files)) sums[files] = file_sums(files);
-        run.files = sums[files];
-        run.done = is_done(run);
-      }
-    } catch (const Fault& one) {
-      code = one.code();
-      failure = shown(one) + "\n";
-    }
-    for (const std::string& complaint : complaints.each()) note(complaint, run);
-    if (!failure.empty()) note(failure, run);
-    if (run.done) run.results = results_of(run.folder);
-    if (complaints.errors() > 0 || !failure.empty()) {
-      run.refused = true;
-      run.code = static_cast<int>(code);
-      ++bad;
-    }
-    note_row(run);
+std::vector<BatchRun> runs_of(const std::vector<RunList>& lists, const DeckArguments& common, const fs::path& out) {
+  const Lists known(lists);
+  std::vector<BatchRun> runs;
+  std::vector<std::pair<std::size_t, std::size_t>> places;  // of the runs of each list
+  for (const RunList& list : lists) {
+    const std::size_t first = runs.size();
+    for (const std::string& deck : list.decks)
+      for (const auto& row : list.rows) runs.push_back(run_of(list, deck, row, common, out));
+    places.emplace_back(first, runs.size());
   }
-  std::string text;
-  for (std::size_t k = 0; k < order.size() && k < most_shown; ++k)
-    text += fmt::format("{}  in {}\n", order[k], listed(who[order[k]], runs.size()));
-  if (order.size() > most_shown) text += fmt::format("... and {} more\n", order.size() - most_shown);
-  if (bad > 0) text += fmt::format("{} of {} runs cannot begin\n", bad, runs.size());
-  return {bad, text};
+  refuse_twins(runs, out);
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    for (const std::string& name : waits_for(lists[k])) {
+      const auto [from, to] = places[known.at(name)];
+      for (std::size_t run = places[k].first; run < places[k].second; ++run)
+        for (std::size_t other = from; other < to; ++other)
+          if (agree(runs[run], runs[other])) runs[run].needs.push_back(other);
+    }
+  return runs;
+}
+
+std::vector<std::string> parameters_of(const std::vector<BatchRun>& runs) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const BatchRun& run : runs)
+    for (const auto& [name, value] : run.values)
+      if (seen.insert(name).second) names.push_back(name);
+  return names;
 }
 
 }  // namespace beadwork

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "core/base/failure.hpp"
-#include "core/base/text.hpp"
-#include "core/base/utf8.hpp"
 #include "core/loop/bounded_json.hpp"
 #include "core/loop/former_run.hpp"
 #include "workbench/batch.hpp"
@@ -22,18 +20,6 @@ std::string text(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_string() ? json[key].get<std::string>() : "";
 }
 
-// Whatever a parameter, a curve or a run is called: the table is UTF-8.
-std::string quoted_field(const std::string& raw) {
-  const std::string text = safe_text(raw);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 std::string number(const Json& json, const char* key) {
   return json.contains(key) && json[key].is_number() ? json[key].dump() : "";
 }
@@ -48,6 +34,7 @@ std::string breaks(const Json& summary) {
 
 std::string status_of(const BatchRun& run, const Json& summary) {
   if (run.refused) return "refused";
+  if (!run.missing.empty()) return "skipped";
   const std::string said = text(summary, "status");
   if (run.code > 0 && said == "running") return "failed";  // it could not say so
   return !said.empty() ? said : run.code < 0 ? "waiting" : "failed";
@@ -80,29 +67,35 @@ bool is_done(BatchRun& run) {
 }
 
 void note_row(BatchRun& run) {
-  const Json summary = run.refused ? Json::object() : summary_of(run);
-  run.row = {
-      status_of(run, summary), number(summary, "elements"),     number(summary, "steps"),    number(summary, "time"),
-      breaks(summary),         number(summary, "wall_seconds"), text(summary, "exit_reason")};
+  const Json summary = run.refused || !run.missing.empty() ? Json::object() : summary_of(run);
+  const std::string reason =
+      run.missing.empty() ? text(summary, "exit_reason") : fmt::format("needs '{}', which is not done", run.missing);
+  run.row = {status_of(run, summary),
+             number(summary, "elements"),
+             number(summary, "steps"),
+             number(summary, "time"),
+             breaks(summary),
+             number(summary, "wall_seconds"),
+             reason};
 }
 
-std::string batch_table(const std::vector<Variation>& variations, const std::vector<BatchRun>& runs) {
-  const std::vector<std::string> columns = columns_of(runs);
-  std::string table = "run";
-  for (const Variation& variation : variations) table += "," + quoted_field(variation.name);
-  table += ",status,elements,steps,time [s],breaks,wall_seconds [s],exit_reason";
-  for (const std::string& column : columns) table += "," + quoted_field(column);
-  table += "\n";
+ResultTable batch_table(const std::vector<BatchRun>& runs) {
+  const std::vector<std::string> parameters = parameters_of(runs), columns = columns_of(runs);
+  const auto value_in = [](const auto& pairs, const std::string& name) {
+    const auto found = std::find_if(pairs.begin(), pairs.end(), [&](const auto& each) { return each.first == name; });
+    return found == pairs.end() ? "" : found->second;
+  };
+  ResultTable table{{"run"}, {}};
+  table.head.insert(table.head.end(), parameters.begin(), parameters.end());
+  for (const char* own : {"status", "elements", "steps", "time [s]", "breaks", "wall_seconds [s]", "exit_reason"})
+    table.head.emplace_back(own);
+  table.head.insert(table.head.end(), columns.begin(), columns.end());
   for (const BatchRun& run : runs) {
-    table += quoted_field(run.name);
-    for (const std::string& value : run.values) table += "," + quoted_field(value);
-    for (const std::string& cell : run.row) table += "," + quoted_field(cell);
-    for (const std::string& column : columns) {
-      const auto found = std::find_if(run.results.begin(), run.results.end(),
-                                      [&](const auto& result) { return result.first == column; });
-      table += "," + (found == run.results.end() ? "" : quoted_field(found->second));
-    }
-    table += "\n";
+    std::vector<std::string> row{run.name};
+    for (const std::string& name : parameters) row.push_back(value_in(run.values, name));
+    row.insert(row.end(), run.row.begin(), run.row.end());
+    for (const std::string& column : columns) row.push_back(value_in(run.results, column));
+    table.rows.push_back(std::move(row));
   }
   return table;
 }

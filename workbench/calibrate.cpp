@@ -23,6 +23,9 @@ struct CalibrateArguments {
   std::string out, seeds, elements, density, tests;  // as they stand on the command line
   Words words;
   Shares shares;
+  bool quiet = false;
+  std::string batch, label;  // of a batch that has started this: its command, and what it calls this
+  int tell = -1;             // socket that takes how far it has come; -1 if nobody asks
 };
 
 DeckRequest request_of(const CalibrateArguments& arguments) {
@@ -45,10 +48,23 @@ int calibrate(const CalibrateArguments& arguments) {
         loaded.deck->root->at,
         fmt::format("this deck has no <study>: it is a scene. Do: beadwork run {} --out FOLDER", arguments.deck.path));
   Study& study = *loaded.scene->studies.front();
+  if (study.is_list()) refuse_study(loaded, arguments.deck.path);
   Office office(arguments.out, *loaded.scene, study.tag());
-  Progress progress([](const std::string& line) { say("{}\n", line), std::fflush(stdout); });
-  const Log log = log_beside(progress);
-  SceneRunner runner(runs_of(arguments, progress, log), loaded.catalogue);
+  const bool quiet = arguments.quiet;
+  const auto tell_all = [quiet](const std::string& line) {
+    if (!quiet) say("{}\n", line), std::fflush(stdout);
+  };
+  Progress progress(tell_all, !quiet);
+  const Log beside = log_beside(progress);
+  const Log log =
+      quiet ? Log([](const std::string&) {}, [beside](const std::string& line) { beside.warn(line); }) : beside;
+  SceneRunnerOptions options = runs_of(arguments, progress, log);
+  if (!arguments.batch.empty()) options.command = arguments.batch;
+  options.progress = [&](const Headway& headway) {
+    progress.show(headway);
+    tell_batch(arguments.tell, headway);
+  };
+  SceneRunner runner(options, loaded.catalogue);
   const StudyDesk desk{
       runner,
       fs::absolute(office.root()),
@@ -67,7 +83,8 @@ int calibrate(const CalibrateArguments& arguments) {
   }
   progress.hide();
   office.close("done", ExitCode::done, "done", runner);
-  say("{} scenes run, {} known already\n{}\n", runner.runs(), runner.known(), write_study_report(office.root()));
+  const std::string page = write_study_report(office.root());
+  if (!quiet) say("{} scenes run, {} known already\n{}\n", runner.runs(), runner.known(), page);
   return 0;
 }
 
@@ -96,6 +113,10 @@ void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words) {
           "--threads", arguments->shares.threads,
           "Threads of each run; where absent the processors that it may use, shared out among the runs at once")
       ->check(CLI::Range(1, 1024));
+  verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
+  verb->add_option("--batch", arguments->batch)->group("");  // these three are for batch
+  verb->add_option("--label", arguments->label)->group("");
+  verb->add_option("--tell", arguments->tell)->group("");
   verb->callback([&chosen, arguments] { chosen = [arguments] { return calibrate(*arguments); }; });
 }
 

@@ -1,11 +1,38 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/io/file.hpp"
 #include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
 namespace beadwork {
+
+namespace {
+
+Override override_of(const std::string& setting, const std::string& complaint) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) throw DeckFailure("error: " + complaint);
+  return {setting.substr(0, equals), setting.substr(equals + 1)};
+}
+
+/// A setting a line; what begins with # is a remark.
+std::vector<Override> settings_in(const std::string& file) {
+  constexpr std::uintmax_t longest = 1 << 20;
+  std::vector<Override> all;
+  int number = 0;
+  for (const std::string& raw : split(read_text(file, longest), '\n')) {
+    const std::string line(trim(raw));
+    ++number;
+    if (line.empty() || line.starts_with('#')) continue;
+    all.push_back(override_of(line, fmt::format("{}:{}: name=value is wanted, got \"{}\"", file, number, line)));
+  }
+  return all;
+}
+
+}  // namespace
 
 void DeckArguments::add_to(CLI::App& verb) {
   verb.add_option("deck", path, "The deck, an XML file")->required();
@@ -15,18 +42,21 @@ void DeckArguments::add_to(CLI::App& verb) {
 void DeckArguments::add_options_to(CLI::App& verb) {
   verb.add_option("--set", settings, "Gives a parameter of the deck another value: name=value")
       ->allow_extra_args(false);
+  verb.add_option("--settings", files, "File of such settings, a line each; --set goes before what it says")
+      ->allow_extra_args(false);
   verb.add_option("--plugins", libraries, "A plugin library, or a folder of them")->allow_extra_args(false);
   verb.add_flag("--no-plugins", no_plugins, "Loads no library that the deck itself names: for decks from elsewhere");
 }
 
 DeckRequest DeckArguments::request() const {
   DeckRequest request{path, {}, libraries, no_plugins};
-  for (const std::string& setting : settings) {
-    const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw DeckFailure(fmt::format("error: --set wants name=value, got \"{}\"", setting));
-    request.overrides.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
-  }
+  for (const std::string& setting : settings)
+    request.overrides.push_back(override_of(setting, fmt::format("--set wants name=value, got \"{}\"", setting)));
+  for (const std::string& file : files)
+    for (const Override& each : settings_in(file))
+      if (std::none_of(request.overrides.begin(), request.overrides.end(),
+                       [&](const Override& other) { return other.name == each.name; }))
+        request.overrides.push_back(each);
   return request;
 }
 
@@ -52,9 +82,10 @@ Loaded load_run(const DeckArguments& arguments) {
 
 void refuse_study(const Loaded& loaded, const std::string& path) {
   if (!loaded.scene || loaded.scene->studies.empty()) return;
-  refuse(loaded.scene->studies.front()->at(),
-         fmt::format("this deck holds a study, which runs scenes of its own. Do: beadwork calibrate {} --out FOLDER",
-                     shell_quoted(path)));
+  const Study& study = *loaded.scene->studies.front();
+  refuse(study.at(),
+         fmt::format("this deck holds a study, which runs scenes of its own. Do: beadwork {} {} --out FOLDER",
+                     study.is_list() ? "batch" : "calibrate", shell_quoted(path)));
 }
 
 }  // namespace beadwork

@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
   add_batch(app, chosen, words);
   add_calibrate(app, chosen, words);
   add_law(app, chosen, words);
+  add_trade(app, chosen, words);
+  add_export(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

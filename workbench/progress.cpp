@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,9 +18,14 @@ namespace {
 constexpr double warm_up = 3;            // s before there is an estimate
 constexpr std::size_t usual_width = 80;  // of a terminal that does not say, and of a log
 
-std::size_t terminal_width() {
+struct TerminalSize {
+  std::size_t columns = usual_width, rows = 24;
+};
+
+TerminalSize terminal_size() {
   winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_width;
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0) return {};
+  return {size.ws_col > 0 ? size.ws_col : usual_width, size.ws_row > 0 ? size.ws_row : std::size_t{24}};
 }
 
 // Bytes of the character that begins with this one, and the columns that it takes, roughly: scripts from Hangul on take
@@ -96,10 +102,20 @@ std::string progress_line(const Headway& headway, std::optional<double> seconds_
   return fitted(line, width);
 }
 
+std::string part_line(const std::string& name, double share, std::optional<double> seconds_to_go, std::size_t width) {
+  const std::size_t of_name = std::clamp<std::size_t>(width / 2, 10, 60);
+  std::string line = fitted("  " + name, of_name);
+  line.resize(std::max(line.size(), of_name), ' ');
+  line += fmt::format(" {:3.0f} % ", std::floor(100 * std::clamp(share, 0., 1.)));
+  if (width >= 50) line += bar(std::clamp(share, 0., 1.), std::clamp<std::size_t>(width / 8, 6, 20)) + " ";
+  if (seconds_to_go) line += duration_text(*seconds_to_go) + " to go";
+  return fitted(line, width);
+}
+
 Progress::Progress(std::function<void(const std::string&)> log, bool on_terminal)
     : log_(std::move(log)), terminal_(on_terminal && ::isatty(STDERR_FILENO) == 1) {}
 
-void Progress::show(const Headway& headway) {
+void Progress::show(const Headway& headway, const std::vector<Part>& parts) {
   const auto now = Clock::now();
   if (headway.work != work_) {
     work_ = headway.work;
@@ -108,27 +124,52 @@ void Progress::show(const Headway& headway) {
     return;
   }
   last_shown_ = now;
-  if (headway.share) to_go_.note(std::chrono::duration<double>(now - began_).count(), *headway.share);
+  const double passed = std::chrono::duration<double>(now - began_).count();
+  if (headway.share) to_go_.note(passed, *headway.share);
   const auto seconds = headway.share ? to_go_.seconds() : std::nullopt;
   if (terminal_) {
-    write(
-        progress_line(headway, seconds, terminal_width() - 1));  // a full line would make some terminals begin another
+    // a full line would make some terminals begin another
+    std::vector<std::string> lines{progress_line(headway, seconds, terminal_size().columns - 1)};
+    const auto below = lines_of(parts, passed);
+    lines.insert(lines.end(), below.begin(), below.end());
+    write(lines);
   } else if (now - last_logged_ >= std::chrono::minutes(1)) {
     last_logged_ = now;
     log_(progress_line(headway, seconds, 200));
   }
 }
 
-void Progress::write(const std::string& line) {
-  std::fprintf(stderr, "\r\x1b[K%s", safe_text(line).c_str());
+std::vector<std::string> Progress::lines_of(const std::vector<Part>& parts, double now) {
+  const TerminalSize size = terminal_size();
+  const std::size_t room = size.rows > 3 ? size.rows - 3 : 0;
+  std::vector<std::string> lines;
+  std::map<std::string, TimeToGo> to_go;
+  for (const Part& part : parts) {
+    TimeToGo& its = to_go[part.name] = parts_to_go_[part.name];
+    its.note(now, part.share);
+    if (lines.size() < room) lines.push_back(part_line(part.name, part.share, its.seconds(), size.columns - 1));
+  }
+  parts_to_go_ = std::move(to_go);  // without those that have ended
+  if (parts.size() > room && !lines.empty()) lines.back() = fmt::format("  and {} more", parts.size() - room + 1);
+  return lines;
+}
+
+void Progress::write(const std::vector<std::string>& lines) {
+  hide();
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    std::fprintf(stderr, "%s\r\x1b[K%s", k ? "\n" : "", safe_text(lines[k]).c_str());
   std::fflush(stderr);
-  shown_ = true;
+  shown_ = lines.size();
 }
 
 void Progress::hide() {
-  if (!shown_) return;
-  std::fputs("\r\x1b[K", stderr);
-  shown_ = false;
+  for (; shown_ > 0; --shown_) std::fputs(shown_ > 1 ? "\r\x1b[K\x1b[A" : "\r\x1b[K", stderr);
+}
+
+void tell_batch(int socket, const Headway& headway) {
+  if (socket < 0 || !headway.share || headway.work.starts_with("filling")) return;
+  const std::string text = fmt::format("{:.6f}", *headway.share);
+  ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 }  // namespace beadwork

@@ -1,7 +1,6 @@
 #include "core/loop/run.hpp"
 
 #include <spdlog/spdlog.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 
@@ -36,13 +35,6 @@ std::string instructions_of(const Library& library) {
   return std::find(sets.begin(), sets.end(), folder) == sets.end() ? "baseline" : folder;
 }
 
-// A batch that does not listen, or is gone, does not hold the run up.
-void tell(int socket, const Headway& headway) {
-  if (socket < 0 || !headway.share || headway.work.starts_with("filling")) return;
-  const std::string text = fmt::format("{:.6f}", *headway.share);
-  ::send(socket, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
-}
-
 int run(const RunArguments& arguments) {
   heed_signals();
   Loaded loaded = load_run(arguments.deck);
@@ -72,7 +64,7 @@ int run(const RunArguments& arguments) {
       });
   options.progress = [&](const Headway& headway) {
     progress.show(headway);
-    tell(arguments.tell, headway);
+    tell_batch(arguments.tell, headway);
   };
 
   log->info("beadwork {} runs {} on {} thread{} ({} instructions) into {}", version, arguments.deck.path,

@@ -33,11 +33,14 @@ void add_new(CLI::App& app, Chosen& chosen);
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words);
 void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words);
 void add_law(CLI::App& app, Chosen& chosen, const Words& words);
+void add_trade(CLI::App& app, Chosen& chosen, const Words& words);
+void add_export(CLI::App& app, Chosen& chosen);
 
 /// What every verb that reads a deck takes.
 struct DeckArguments {
   std::string path;
   std::vector<std::string> settings;   ///< name=value
+  std::vector<std::string> files;      ///< of such settings, a line each
   std::vector<std::string> libraries;  ///< files or folders
   bool no_plugins = false;             ///< the libraries that the deck itself names are not loaded
 

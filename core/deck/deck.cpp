@@ -8,6 +8,7 @@
 #include "core/base/readable.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/text.hpp"
+#include "core/deck/read.hpp"
 #include "core/deck/tokens.hpp"
 #include "core/deck/xml.hpp"
 
@@ -19,7 +20,8 @@ constexpr std::size_t deepest_include = 16, most_files = 256;
 
 class DeckReader {
  public:
-  DeckReader(Deck& deck, Complaints& complaints) : deck_(deck), complaints_(complaints) {}
+  DeckReader(Deck& deck, const std::vector<Override>& overrides, Complaints& complaints)
+      : deck_(deck), overrides_(overrides), complaints_(complaints) {}
 
   /// False if a parameter or an include could not be read: what is said about a deck without it would mislead.
   bool is_whole() const { return is_whole_; }
@@ -90,12 +92,16 @@ class DeckReader {
       return miss();
     }
     deck_.scope.add({name.value, value.value, name.value_at, value.value_at, chain_.size() > 1}, complaints_);
+    for (const Override& each : overrides_)  // an include further down may be called by it
+      if (each.name == name.value) deck_.scope.set(each.name, each.value, complaints_);
   }
 
   void splice(const Node& include, Node& into) {
     if (!has_just(include, {"file"})) return miss();
     const Attribute& file = *include.find("file");
-    const std::string path = path_beside(file.value_at, file.value);
+    const auto name = text_of(file.value, file.value_at, deck_.scope, complaints_);
+    if (!name) return miss();
+    const std::string path = path_beside(file.value_at, *name);
     if (!may_include(path, file.value_at)) return miss();
     const auto root = read(path, file.value_at);
     if (!root) return miss();
@@ -125,6 +131,7 @@ class DeckReader {
   void miss() { is_whole_ = false; }
 
   Deck& deck_;
+  const std::vector<Override>& overrides_;
   Complaints& complaints_;
   bool is_whole_ = true;
   std::vector<File> chain_;  // from the deck to the file that is being read
@@ -165,7 +172,7 @@ std::unique_ptr<Deck> read_deck(const std::string& path, const std::vector<Overr
                                 Complaints& complaints) {
   auto deck = std::make_unique<Deck>();
   deck->path = path;
-  DeckReader reader(*deck, complaints);
+  DeckReader reader(*deck, overrides, complaints);
   deck->root = reader.read(path, {});
   if (!deck->root) return nullptr;
   deck->overrides = overrides;

@@ -18,6 +18,7 @@
 #include <list>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "core/base/failure.hpp"
 #include "core/base/processors.hpp"
@@ -60,7 +61,6 @@ class Pool {
   Pool(int at_once, Voice voice) : at_once_(static_cast<std::size_t>(at_once)), voice_(voice) {}
   bool is_full() const { return running_.size() >= at_once_; }
   bool is_empty() const { return running_.empty(); }
-  std::size_t size() const { return running_.size(); }
 
   void start(std::size_t number, std::vector<std::string> command) {
     int ends[2] = {-1, -1};
@@ -102,10 +102,10 @@ class Pool {
     return std::nullopt;
   }
 
-  double shares() const {
-    double sum = 0;
-    for (const Running& each : running_) sum += each.share;
-    return sum;
+  std::vector<JobShare> shares() const {
+    std::vector<JobShare> all;
+    for (const Running& each : running_) all.push_back({each.number, each.share});
+    return all;
   }
 
   void ask_to_stop() const {
@@ -157,7 +157,7 @@ class Attendant {
         next_look_ = {};
         events_.ended(ended->first, ended->second);
       }
-      events_.at_work(pool_.size(), pool_.shares());
+      events_.at_work(pool_.shares());
     }
   }
 
@@ -170,22 +170,26 @@ class Attendant {
     }
   }
 
+  // In their order, as far as there is room: what has to wait keeps its place.
   void start_some() {
     if (Clock::now() < next_look_) return;
+    std::deque<std::size_t> left;
     bool busy = false;
-    for (std::size_t k = waiting_.size(); k > 0 && !pool_.is_full(); --k) {
-      const std::size_t number = waiting_.front();
-      const LocalJob& job = jobs_[number];
-      waiting_.pop_front();
-      if (is_busy(job.folder)) {
-        if (elsewhere_.insert(number).second) events_.is_written_elsewhere(number, holder_of(job.folder));
-        waiting_.push_back(number);
+    for (const std::size_t number : std::exchange(waiting_, {})) {
+      const Turn turn = pool_.is_full() ? Turn::later : events_.turn_of(number);
+      if (turn == Turn::never) continue;
+      if (turn == Turn::later) {
+        left.push_back(number);
+      } else if (is_busy(jobs_[number].folder)) {
+        if (elsewhere_.insert(number).second) events_.is_written_elsewhere(number, holder_of(jobs_[number].folder));
+        left.push_back(number);
         busy = true;
       } else if (!elsewhere_.contains(number) || !events_.was_done_elsewhere(number)) {
-        pool_.start(number, job.command);
+        pool_.start(number, jobs_[number].command);
         events_.began(number);
       }
     }
+    waiting_ = std::move(left);
     if (busy) next_look_ = Clock::now() + std::chrono::milliseconds(500);
   }
 
@@ -199,6 +203,12 @@ class Attendant {
 };
 
 }  // namespace
+
+double sum_of(const std::vector<JobShare>& jobs) {
+  double sum = 0;
+  for (const JobShare& each : jobs) sum += each.share;
+  return sum;
+}
 
 const std::vector<int>& asking_signals() {
   static const std::vector<int> all{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};

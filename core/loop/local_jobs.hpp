@@ -35,18 +35,30 @@ struct JobEnd {
   std::string how;  ///< "exit code 3", "killed by signal 9 (Killed)"
 };
 
+/// A job at work, and how far it has come, 0 to 1.
+struct JobShare {
+  std::size_t job;
+  double share;
+};
+/// Of all.
+double sum_of(const std::vector<JobShare>& jobs);
+
+enum class Turn { now, later, never };
+
 /// What is told of them while they run; numbers are those of the list.
 class JobEvents {
  public:
   virtual ~JobEvents() = default;
+  /// Whether a job may begin: it may need what others leave. Asked again and again; one that never may is left out.
+  virtual Turn turn_of(std::size_t /*job*/) { return Turn::now; }
   virtual void began(std::size_t /*job*/) {}
   virtual void ended(std::size_t job, const JobEnd& end) = 0;
   /// Another process is writing its folder and is waited for.
   virtual void is_written_elsewhere(std::size_t /*job*/, const std::string& /*by*/) {}
   /// That other process has ended: whether the job is done now.
   virtual bool was_done_elsewhere(std::size_t /*job*/) { return false; }
-  /// Now and then: how many are at work, and the sum of how far each has come, 0 to 1.
-  virtual void at_work(std::size_t /*jobs*/, double /*shares*/) {}
+  /// Now and then: those at work.
+  virtual void at_work(const std::vector<JobShare>& /*jobs*/) {}
 };
 
 /// Runs all. Asks those at work to stop, so that they can be resumed, once `interrupt` is not zero, and starts no other;

@@ -135,11 +135,11 @@ class SceneRunner::Events final : public JobEvents {
     ++ended_;
     return true;
   }
-  void at_work(std::size_t jobs, double shares) override {
+  void at_work(const std::vector<JobShare>& jobs) override {
     const auto done = static_cast<double>(before_ + ended_);
     options_.progress({.work = "study",
-                       .detail = fmt::format("{} of {} runs done, {} at work", before_ + ended_, all_, jobs),
-                       .share = (done + shares) / static_cast<double>(all_)});
+                       .detail = fmt::format("{} of {} runs done, {} at work", before_ + ended_, all_, jobs.size()),
+                       .share = (done + sum_of(jobs)) / static_cast<double>(all_)});
   }
 
   bool any_interrupted() const { return worst_ > 0; }

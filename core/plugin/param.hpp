@@ -36,6 +36,9 @@ inline constexpr Range fraction{0, 1};
 /// What a text of the deck stands for, so that names can be checked against one another, and that files are there.
 enum class Role { plain, makes_set, set, makes_family, family, fields, file };
 
+/// Whether a parameter trades speed for accuracy while it leaves the physics as it is, and which way is faster.
+enum class Knob { none, larger_is_faster, smaller_is_faster, a_choice };
+
 struct ParamInfo {
   std::string name;
   std::string unit = "1";  ///< of quantities; "1" is a plain number
@@ -45,6 +48,7 @@ struct ParamInfo {
   bool optional = false;                               ///< may be absent without a fallback: ask `given()`
   std::vector<std::string> choices = {};               ///< of a text: one of these
   Role role = Role::plain;
+  Knob knob = Knob::none;                 ///< `trade` tries values of these
   int count = 0;                          ///< of several words: how many are wanted; 0 is any number
   std::vector<Variable> variables = {};   ///< of a formula
   std::vector<std::string> columns = {};  ///< of rows: the unit of each column

@@ -7,6 +7,7 @@
 #include "core/base/log.hpp"
 #include "core/plugin/curve.hpp"
 #include "core/plugin/plugin.hpp"
+#include "core/plugin/run_list.hpp"
 #include "core/plugin/runner.hpp"
 
 namespace beadwork {
@@ -25,11 +26,15 @@ struct StudyDesk {
   std::function<void(const std::string& json)> result;
 };
 
+/// Either learns from runs what to run next (`conduct`: a calibration), or is a list of runs (`runs`: a sweep).
 class Study : public Plugin {
  public:
   static constexpr Kind its_kind = Kind::study;
   Study() : Plugin(its_kind) {}
-  virtual void conduct(const StudyDesk& desk) = 0;
+  virtual void conduct(const StudyDesk&) {}
+  /// Whether it is a list of runs, which `runs` then gives.
+  virtual bool is_list() const { return false; }
+  virtual RunList runs() const { return {}; }
 };
 
 }  // namespace beadwork

@@ -101,6 +101,7 @@ class CohesiveContact final
                          .unit = "Pa/m",
                          .range = positive,
                          .doc = "Traction over opening while undamaged, K",
+                         .knob = Knob::smaller_is_faster,
                          .one_of = "onset"}};
   Param<Real> onset{this,
                     {.name = "onset",

@@ -12,6 +12,7 @@ class Penalty final : public Colliding<LinearContact> {
                                 .unit = "N/m",
                                 .range = positive,
                                 .doc = "Normal stiffness k of every contact",
+                                .knob = Knob::smaller_is_faster,
                                 .one_of = "hardness"}};
   Param<Real> young{this,
                     {.name = "young",

@@ -34,8 +34,12 @@ class FibreMaker : public SphereFiller {
        .doc = "Density rho of the fibre: an element has the mass of its share of it, rho pi R^2 length / count"}};
   Param<Real> radius{
       this, {.name = "radius", .unit = "m", .range = positive, .doc = "Radius R of the fibre and of its elements"}};
-  Param<std::int64_t> count{
-      this, {.name = "count", .range = {1}, .doc = "Number of elements of a fibre", .one_of = "elements"}};
+  Param<std::int64_t> count{this,
+                            {.name = "count",
+                             .range = {1},
+                             .doc = "Number of elements of a fibre",
+                             .knob = Knob::smaller_is_faster,
+                             .one_of = "elements"}};
   Param<Real> spacing{this,
                       {.name = "spacing",
                        .unit = "m",

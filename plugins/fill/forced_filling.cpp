@@ -23,7 +23,8 @@ class ForcedFilling final : public PackingStep {
                         {.name = "tolerance",
                          .range = {0, 1, true, true},
                          .doc = "Largest overlap over the sum of radii at which an element is put in",
-                         .fallback = "0.3"}};
+                         .fallback = "0.3",
+                         .knob = Knob::larger_is_faster}};
 
  protected:
   void go_on(packing::Packing& packing) override {

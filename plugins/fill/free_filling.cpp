@@ -27,8 +27,12 @@ class FreeFilling final : public ElementMaker {
                                .doc = "Radius of the cylinder to be filled, from 'from' to 'to'",
                                .one_of = "shape"}};
   Param<Vec3> to{this, {.name = "to", .unit = "m", .doc = "Centre of the other end of the cylinder", .optional = true}};
-  Param<std::int64_t> count{
-      this, {.name = "count", .range = {1}, .doc = "Number of elements of the finished packing", .one_of = "size"}};
+  Param<std::int64_t> count{this,
+                            {.name = "count",
+                             .range = {1},
+                             .doc = "Number of elements of the finished packing",
+                             .knob = Knob::smaller_is_faster,
+                             .one_of = "size"}};
   Param<Real> mean_radius{this,
                           {.name = "mean-radius",
                            .unit = "m",

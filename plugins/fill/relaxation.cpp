@@ -11,7 +11,8 @@ class Relaxation final : public PackingStep {
                       {.name = "overlap",
                        .range = {0, 1, true, true},
                        .doc = "Largest overlap over the sum of radii that may be left, walls included",
-                       .fallback = "1e-7"}};
+                       .fallback = "1e-7",
+                       .knob = Knob::larger_is_faster}};
   Param<Real> radius_change{this,
                             {.name = "radius-change",
                              .range = {0, 0.2},

@@ -37,6 +37,7 @@ class DrivingLoad : public Load {
                            .unit = words_.unit,
                            .doc = fmt::format("{} that is reached, or a formula in t, the time since it began: \"{}\"",
                                               words_.what, words_.example),
+                           .knob = Knob::larger_is_faster,
                            .variables = {{"t", find_unit("s")->dimension}},
                            .one_of = "motion"}};
   Param<Real> rise{this,
@@ -53,6 +54,7 @@ class DrivingLoad : public Load {
        .doc = fmt::format("Instead of 'velocity': times and velocities with units, joined by commas: "
                           "\"{}\"; straight lines between them",
                           words_.rows),
+       .knob = Knob::larger_is_faster,
        .columns = {"s", words_.unit},
        .one_of = "motion"}};
 

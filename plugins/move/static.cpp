@@ -19,6 +19,7 @@ class Static final : public Mover {
                          .unit = "m",
                          .range = positive,
                          .doc = "How far what is pulled goes from one equilibrium to the next",
+                         .knob = Knob::larger_is_faster,
                          .one_of = "length of an increment"}};
   Param<Real> time_step{
       this,
@@ -27,6 +28,7 @@ class Static final : public Mover {
        .range = positive,
        .doc = "Instead of 'increment': the time by which loads go on. Time tells the course of loads; "
               "inertia there is none",
+       .knob = Knob::larger_is_faster,
        .one_of = "length of an increment"}};
   Param<Real> opening{
       this,
@@ -35,7 +37,8 @@ class Static final : public Mover {
        .range = positive,
        .doc = "While bonds of 'opening-of' soften: how far they open or slide from one equilibrium to the next, in the "
               "mean; loads follow, backwards too where that takes less (snap-back), and no further than an increment",
-       .optional = true}};
+       .optional = true,
+       .knob = Knob::larger_is_faster}};
   Param<std::string> opening_of{this,
                                 {.name = "opening-of",
                                  .doc = "Family of bonds whose opening is controlled",
@@ -51,7 +54,8 @@ class Static final : public Mover {
       {.name = "tolerance",
        .range = {0, 0.1, true, false},
        .doc = "Of residual, displacement and energy, each over what the increment does; larger is faster",
-       .fallback = "1e-6"}};
+       .fallback = "1e-6",
+       .knob = Knob::larger_is_faster}};
   Param<std::int64_t> iterations{
       this, {.name = "iterations", .range = {2, 1000}, .doc = "Most iterations of one increment", .fallback = "25"}};
   Param<std::string> slope{
@@ -67,7 +71,8 @@ class Static final : public Mover {
        .doc = "Linear algebra: multifrontal and simplicial factor the stiffness, conjugate-gradients "
               "takes less memory and, in large scenes of solid shape, less time",
        .fallback = "multifrontal",
-       .choices = linear_solvers()}};
+       .choices = linear_solvers(),
+       .knob = Knob::a_choice}};
   Param<std::string> free_bodies{
       this,
       {.name = "free",
@@ -80,12 +85,14 @@ class Static final : public Mover {
       {.name = "at-once",
        .range = {1},
        .doc = "Most bonds or elements that break before a new equilibrium is found; more is faster",
-       .fallback = "1"}};
+       .fallback = "1",
+       .knob = Knob::larger_is_faster}};
   Param<Real> within{this,
                      {.name = "within",
                       .range = {0, 1, false, true},
                       .doc = "What comes so near, as a share, to what breaks first may break with it; more is faster",
-                      .fallback = "1e-6"}};
+                      .fallback = "1e-6",
+                      .knob = Knob::larger_is_faster}};
 
   Keeps<Vec3> velocity{this, field::velocity};
   Keeps<Vec3> force{this, field::force};

@@ -33,14 +33,16 @@ class Verlet final : public Mover {
                      {.name = "safety",
                       .range = {0, 1, true, false},
                       .doc = "Time step over the estimate of the largest stable one",
-                      .fallback = "0.9"}};
+                      .fallback = "0.9",
+                      .knob = Knob::larger_is_faster}};
   Param<Real> fixed_step{
       this,
       {.name = "time-step",
        .unit = "s",
        .range = positive,
        .doc = "Time step, instead of the one found by itself; a run that exceeds stability is stopped",
-       .optional = true}};
+       .optional = true,
+       .knob = Knob::larger_is_faster}};
   Param<Real> local_damping{this,
                             {.name = "local-damping",
                              .range = {0, 1, false, true},
@@ -51,7 +53,8 @@ class Verlet final : public Mover {
                                 .doc = "mixed: forces of beams in single precision, found from what has changed since "
                                        "they were bonded; all else in double",
                                 .fallback = "double",
-                                .choices = {"double", "mixed"}}};
+                                .choices = {"double", "mixed"},
+                                .knob = Knob::a_choice}};
   Param<Real> bond_damping{this,
                            {.name = "bond-damping",
                             .range = {0, 1, false, true},

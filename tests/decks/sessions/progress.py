@@ -11,6 +11,9 @@ import sys
 import termios
 
 
+below = set()  # the beginnings of all lines
+
+
 def set_width(terminal, columns):
     fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
 
@@ -25,7 +28,8 @@ def lines_on_terminal(command, widths, each, is_enough):
         while len(seen) < each * len(widths) or not is_enough(seen):
             text += os.read(ours, 4096).decode()
             *whole, text = text.split("\r\x1b[K")
-            for line in whole:
+            for line in (each.rstrip("\r\n") for each in whole):
+                below.add(re.sub(r"[\d.]+ (s|min|h) to go|\x1b\[A", "", line).strip()[:15])
                 if re.match(r" *\d+ %", line):
                     seen.append((widths[min(len(seen) // each, len(widths) - 1)], line))
                     set_width(ours, widths[min(len(seen) // each, len(widths) - 1)])
@@ -66,3 +70,5 @@ seen = [line for _, line in lines_on_terminal(batch, [160], 20, has_headway)]
 assert all(line.endswith("batch, 0 of 2 runs done, 2 at work") for line in seen), seen
 shares = [share(line) for line in seen]
 assert shares == sorted(shares), seen
+# Each run has a line of its own below.
+assert {"end=300000000 ", "end=300000001 "} <= {each[:14] for each in below}, below

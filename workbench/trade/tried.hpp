@@ -1,0 +1,43 @@
+#pragma once
+// What a setting of a deck's knobs has cost, and how far it is off.
+
+#include <string>
+#include <vector>
+
+#include "core/deck/deck.hpp"
+#include "core/io/result_tables.hpp"
+#include "core/plugin/runner.hpp"
+#include "workbench/trade/knobs.hpp"
+
+namespace beadwork::trade {
+
+struct Tried {
+  std::string name;              ///< "v=0.2 m/s", "reference", "as it stands"
+  std::vector<Override> values;  ///< beside what the deck has
+  bool done = false;
+  std::string reason;            ///< why not
+  Real seconds = 0;              ///< in the loop
+  std::vector<Real> quantities;  ///< nan where the run has none
+  Real error = 0;                ///< the largest of the quantities', over the reference
+};
+
+/// What is compared, as the columns of a batch's table are called: "force: largest force [N]".
+using Quantities = std::vector<std::string>;
+
+/// Those that a run has if the user names none: the largest forces of its curves.
+Quantities usual_quantities(const Outcome& outcome);
+/// Cost and quantities of a run; errors are still to be told.
+Tried tried(const std::string& name, const std::vector<Override>& values, const Outcome& outcome,
+            const Quantities& quantities);
+/// The largest difference over the reference; infinite for a run that failed.
+Real error_of(const Tried& one, const Tried& reference);
+/// Standard deviation of one run over its mean, the largest of the quantities'; 0 for fewer than two.
+Real scatter_of(const std::vector<Tried>& seeds);
+/// Those that no other beats in both, by their time.
+std::vector<const Tried*> front_of(const std::vector<Tried>& all);
+/// The fastest of those that are off by so much at most; null if there is none.
+const Tried* fastest_within(const std::vector<Tried>& all, Real error);
+
+ResultTable table_of(const std::vector<Tried>& all, const Quantities& quantities, const Tried& base);
+
+}  // namespace beadwork::trade
