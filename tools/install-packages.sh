@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config
   libeigen3-dev libboost-dev libtinyxml2-dev libhdf5-dev libudunits2-dev libmuparser-dev libpng-dev libssl-dev
-  libmumps-seq-dev libmetis-dev libopenblas0-serial
+  libmumps-seq-dev libmetis-dev libopenblas0-serial libjs-three
   libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   libxml2-utils python3-h5py python3-meshio

@@ -119,6 +119,12 @@ pre { font: 12.5px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mo
   .chart, .frame, tr, .beside { break-inside: avoid; } h2 { break-after: avoid; }
   .charts { grid-template-columns: 1fr 1fr; } pre { max-height: none; white-space: pre-wrap; }
 }
+.turnable .controls { display: flex; flex-wrap: wrap; gap: 6px 18px; align-items: center; margin-bottom: 8px; }
+.turnable .stage canvas { width: 100%; height: 460px; display: block; touch-action: none; cursor: grab; }
+.turnable .bar { visibility: hidden; display: flex; gap: 8px; align-items: center; }
+.turnable .bar i { width: 220px; height: 10px; background: linear-gradient(90deg, #440054, #3b528c, #21918c, #5ec962, #fde725); }
+.turnable .info { min-height: 3em; color: var(--soft); }
+.turnable.none .controls, .turnable.none .bar { display: none; }
 )css";
 
 }  // namespace beadwork::report

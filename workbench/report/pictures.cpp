@@ -9,6 +9,7 @@
 #include "workbench/report/sections.hpp"
 #include "workbench/report/specimen.hpp"
 #include "workbench/report/text.hpp"
+#include "workbench/report/turnable.hpp"
 
 namespace beadwork::report {
 
@@ -153,7 +154,7 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, c
                                    [&](const record::FrameHead& h) { return h.name == frame.head.name; });
     body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
   }
-  return section("The specimen", body + "</div>") + field_pictures(stage, frames);
+  return section("The specimen", body + "</div>") + turnable(run, stage, frames) + field_pictures(stage, frames);
 }
 
 }  // namespace beadwork::report

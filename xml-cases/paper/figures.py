@@ -92,6 +92,11 @@ class Run:
         below = numpy.nonzero(self.force[k:] < share * self.force[k])[0]
         return self.strain[k + below[0]] if len(below) else math.nan
 
+    def most_broken(self, share):
+        """Strain at which so many of all breaks of the run have come."""
+        broken = self.crack["broken"]
+        return float(self.crack_strain[numpy.argmax(broken >= share * broken[-1])]) if broken[-1] > 0 else math.nan
+
     def middle_of_breaks(self):
         """Mean place of the resin's breaks along the load, and their deviation, over the side."""
         with h5py.File(self.folder / "run.h5") as file:
@@ -132,7 +137,7 @@ class Run:
             "tangent [Pa]": self.tangent(), "centres over box [1]": self.skeleton, "secant [Pa]": self.secant(),
             "force at .005 [N]": self.force_at(0.005), "force at .01 [N]": self.force_at(0.01), "force at .015 [N]": self.force_at(0.015),
             "largest force [N]": top, "its strain [1]": at, "half of it at [1]": self.falls_to(0.5),
-            "parted at [1]": self.first("parted", 0.5), "below 5 % from [1]": self.vanishes(0.05),
+            "nine tenths broken at [1]": self.most_broken(0.9), "parted at [1]": self.first("parted", 0.5), "below 5 % from [1]": self.vanishes(0.05),
             "force at .08 [N]": self.force_at(0.08), "last force [N]": self.force[-1], "last strain [1]": self.strain[-1],
             "left-right [1]": self.imbalance(), "near the plane [1]": math.nan if near is None else near[-1],
             "middle of breaks [1]": middle, "deviation of breaks [1]": deviation,
@@ -176,10 +181,10 @@ def by_deck(rows):
 
 
 def main_table(decks):
-    print("| deck | seeds | tangent of the box, through the centres, secant [GPa] | F at .005, .01, .015 [mN] | F_max [mN] | stress [MPa] | at strain | half of it, 5 % from, parted at "
+    print("| deck | seeds | tangent of the box, through the centres, secant [GPa] | F at .005, .01, .015 [mN] | F_max [mN] | stress [MPa] | at strain | half of it, 5 % from | nine tenths broken, parted at "
           "| F at .08, at the end [mN] | left-right | near mid-plane | middle of the breaks | interface damaged, open at end | first damage, first break "
           "| E_k/U before, while it cracks | min | MB |")
-    print("|---|" + "---|" * 16)
+    print("|---|" + "---|" * 17)
     for name, rows in decks.items():
         def mean(key, scale=1.0, digits=3, of=rows):
             return spread([row[key] for row in of], scale, digits)
@@ -189,7 +194,8 @@ def main_table(decks):
             mean("tangent [Pa]", 1e-9) + ", " + spread([r["tangent [Pa]"] * r["centres over box [1]"] for r in rows], 1e-9) + ", " + mean("secant [Pa]", 1e-9),
             ", ".join(mean(f"force at {e} [N]", 1e3) for e in (".005", ".01", ".015")),
             mean("largest force [N]", 1e3), spread([r["largest force [N]"] / r["side [m]"] ** 2 for r in rows], 1e-6),
-            mean("its strain [1]"), mean("half of it at [1]") + ", " + mean("below 5 % from [1]") + ", " + mean("parted at [1]"),
+            mean("its strain [1]"), mean("half of it at [1]") + ", " + mean("below 5 % from [1]"),
+            mean("nine tenths broken at [1]") + ", " + mean("parted at [1]"),
             mean("force at .08 [N]", 1e3) + ", " + mean("last force [N]", 1e3), mean("left-right [1]", 100, 2) + " %", mean("near the plane [1]"),
             mean("middle of breaks [1]") + " (" + mean("deviation of breaks [1]") + ")",
             mean("damaged at end [1]") + ", " + mean("open at end [1]"), mean("first damage [1]") + ", " + mean("first break [1]"),
