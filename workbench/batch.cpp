@@ -34,28 +34,28 @@ Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
   return wanted.among(runs);
 }
 
-void write_command(BatchRun& run, int threads, const Words& words) {
-  run.command = {fs::canonical("/proc/self/exe").string(),
-                 run.is_study ? "calibrate" : "run",
-                 fs::absolute(run.deck.path).string(),
-                 "--quiet",
-                 "--label",
-                 run.name,
-                 "--batch",
-                 command_line(words),
-                 "--out",
-                 run.folder.string(),
-                 "--threads",
-                 std::to_string(threads)};
-  if (run.is_study)
-    run.command.insert(run.command.end(), {"--jobs", "1"});
-  else
-    run.command.emplace_back("--resume-or-begin");
+std::vector<std::string> options_of(const BatchRun& run, int threads, const Words& words) {
+  std::vector<std::string> options{fs::absolute(run.deck.path).string(),
+                                   "--quiet",
+                                   "--label",
+                                   run.name,
+                                   "--batch",
+                                   command_line(words),
+                                   "--out",
+                                   run.folder.string(),
+                                   "--threads",
+                                   std::to_string(threads)};
   for (const Override& each : run.deck.request().overrides)
-    run.command.insert(run.command.end(), {"--set", each.name + "=" + each.value});
-  if (run.deck.no_plugins) run.command.push_back("--no-plugins");
+    options.insert(options.end(), {"--set", each.name + "=" + each.value});
+  if (run.deck.no_plugins) options.emplace_back("--no-plugins");
   for (const std::string& library : run.deck.libraries)
-    run.command.insert(run.command.end(), {"--plugins", fs::absolute(library).string()});
+    options.insert(options.end(), {"--plugins", fs::absolute(library).string()});
+  return options;
+}
+
+bool has_study(const Node& root) {
+  return std::any_of(root.children.begin(), root.children.end(),
+                     [](const auto& section) { return section->tag == "study"; });
 }
 
 bool names_sweeps(const Node& root) {
@@ -71,10 +71,12 @@ std::optional<std::vector<RunList>> lists_of_study(const BatchArguments& argumen
   DeckArguments deck = arguments.deck;
   deck.path = arguments.decks.front();
   const DeckRequest request = deck.request();
-  Complaints unheard;
+  Complaints unheard, complaints;
   const auto read = read_deck(request.path, request.overrides, unheard);
-  if (!read || !names_sweeps(*read->root)) return std::nullopt;  // what is wrong with it is told as that of a run
-  const Loaded loaded = load_checked(request);
+  if (!read || !has_study(*read->root)) return std::nullopt;  // what is wrong with it is told as that of a run
+  const Loaded loaded = load_scene(request, complaints);
+  if (!loaded.scene && names_sweeps(*read->root)) complaints.throw_if_any();
+  if (!loaded.scene || !loaded.scene->studies.front()->is_list()) return std::nullopt;
   if (!arguments.variations.empty())
     refuse(loaded.scene->studies.front()->at(),
            "this deck says itself what varies, and takes no --vary; --set gives its parameters other values");
@@ -83,29 +85,33 @@ std::optional<std::vector<RunList>> lists_of_study(const BatchArguments& argumen
   return lists;
 }
 
-std::vector<BatchRun> all_runs(const BatchArguments& arguments) {
-  if (const auto lists = lists_of_study(arguments)) {
-    DeckArguments common = arguments.deck;
-    common.settings.clear();  // they were for the study
-    common.files.clear();
-    return runs_of(*lists, common, arguments.out);
-  }
-  std::vector<Variation> variations;
-  for (const std::string& text : arguments.variations) variations.push_back(variation_of(text));
-  return runs_of({list_of(arguments.decks, variations)}, arguments.deck, arguments.out);
+void refuse_too_many(const std::vector<RunList>& lists, int most) {
+  std::size_t runs = 0;
+  for (const RunList& list : lists) runs += list.decks.size() * list.rows.size();
+  if (runs > static_cast<std::size_t>(most))
+    throw DeckFailure(
+        fmt::format("error: these are {} runs, more than {}; if they are meant: --most-runs {}", runs, most, runs));
 }
 
-void refuse_too_many(const std::vector<BatchRun>& runs, int most) {
-  if (runs.size() > static_cast<std::size_t>(most))
-    throw DeckFailure(fmt::format("error: these are {} runs, more than {}; if they are meant: --most-runs {}",
-                                  runs.size(), most, runs.size()));
+std::vector<BatchRun> all_runs(const BatchArguments& arguments) {
+  DeckArguments common = arguments.deck;
+  auto lists = lists_of_study(arguments);
+  if (lists) {
+    common.settings.clear();  // they were for the study
+    common.files.clear();
+  } else {
+    std::vector<Variation> variations;
+    for (const std::string& text : arguments.variations) variations.push_back(variation_of(text));
+    lists = {list_of(arguments.decks, variations)};
+  }
+  refuse_too_many(*lists, arguments.most_runs);
+  return runs_of(*lists, common, arguments.out);
 }
 
 int batch(const BatchArguments& arguments) {
   std::vector<BatchRun> runs = all_runs(arguments);
-  refuse_too_many(runs, arguments.most_runs);
   DeckChecks checks;
-  for (BatchRun& run : runs) checks.check(run, runs);
+  checks.check_all(runs);
   const std::size_t refused = checks.refused();
   write_error(checks.text(runs.size()));
   if (refused > 0 && !arguments.keep_going) {
@@ -119,12 +125,12 @@ int batch(const BatchArguments& arguments) {
   const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
   OwnFolder folder(arguments.out, Manifest::Of::batch);
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
-  for (BatchRun& run : runs) write_command(run, shares.threads, arguments.words);
+  for (BatchRun& run : runs) run.options = options_of(run, shares.threads, arguments.words);
   say("{} runs, {} of them done already{}\n", runs.size(), done, refused ? fmt::format(", {} refused", refused) : "");
   if (outdated > 0) say("{} of them were done with other data files, and are run again\n", outdated);
   std::fflush(stdout);
   if (arguments.engine == "slurm") {
-    write_atomically(folder.claim("batch.csv"), csv_of(batch_table(runs)));
+    write_tables(runs, folder);
     submit_to_slurm(runs, shares.jobs, shares.threads, folder);
     std::erase_if(runs, [](const BatchRun& run) { return !run.refused; });  // the others have not run yet
     return worst(runs);
@@ -137,6 +143,16 @@ int batch(const BatchArguments& arguments) {
 }
 
 }  // namespace
+
+std::vector<std::string> command_of(const BatchRun& run) {
+  std::vector<std::string> command{fs::canonical("/proc/self/exe").string(), run.is_study ? "calibrate" : "run"};
+  command.insert(command.end(), run.options.begin(), run.options.end());
+  if (run.is_study)
+    command.insert(command.end(), {"--jobs", "1"});
+  else
+    command.emplace_back("--resume-or-begin");
+  return command;
+}
 
 int worst(const std::vector<BatchRun>& runs) {
   const std::vector<int> mildest_first{0, 5, 2, 3, 4, 1};

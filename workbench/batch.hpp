@@ -23,7 +23,7 @@ struct BatchRun {
   std::filesystem::path folder;
   DeckArguments deck;                ///< with its values
   std::vector<std::size_t> needs;    ///< runs that are to be done before
-  std::vector<std::string> command;  ///< beadwork run ...
+  std::vector<std::string> options;  ///< of its command, as far as they are the same for all
   std::string deck_sha256;
   FileSums files;          ///< that its deck names for data, as they are now
   bool refused = false;    ///< its deck has errors
@@ -46,7 +46,7 @@ struct Variation {
 };
 /// DeckFailure if the text is no such thing.
 Variation variation_of(const std::string& text);
-/// All combinations, the last parameter varying fastest, as a list without a name.
+/// All combinations, the last parameter varying fastest, as a list without a name; refuses more than `most`.
 RunList list_of(const std::vector<std::string>& decks, const std::vector<Variation>& variations);
 /// The runs of these lists, list by list, deck by deck; `out` is the folder of all. DeckFailure if two would write one
 /// folder, if lists wait for one another, or for none that there is.
@@ -63,6 +63,8 @@ class DeckChecks {
  public:
   /// `all`: the runs among which those stand that it needs.
   void check(BatchRun& run, const std::vector<BatchRun>& all);
+  /// All of them, each behind those that it needs.
+  void check_all(std::vector<BatchRun>& runs);
   std::size_t refused() const { return refused_; }
   /// What is wrong, and warnings.
   std::string text(std::size_t all) const;
@@ -87,17 +89,23 @@ ResultTable batch_table(const std::vector<BatchRun>& runs);
 /// Means and scatter (standard deviation of one run) over seeds: a row for each group of runs that differ in their seeds
 /// only, and are done. Without rows where no group has two.
 ResultTable batch_means(const std::vector<BatchRun>& runs);
+/// batch.csv, batch.h5 and, where there are means or were some before, means.csv.
+void write_tables(const std::vector<BatchRun>& runs, OwnFolder& folder);
 /// The code that tells most: a failed run outranks an interrupted one.
 int worst(const std::vector<BatchRun>& runs);
 
 // ---- How they are run
+
+/// beadwork run ..., or calibrate ...: as soon as it is known which.
+std::vector<std::string> command_of(const BatchRun& run);
 
 /// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites the tables
 /// whenever one ends. Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when
 /// this process is killed. A run that another process is still at is waited for.
 void run_here(std::vector<BatchRun>& runs, int at_once, OwnFolder& folder);
 
-/// Writes a script for Slurm and submits it; `at_once` = 0 leaves that to Slurm. MachineFailure, naming the script, if
+/// Writes a script for Slurm and submits it, with those runs that need nothing that is still to come; `at_once` = 0 leaves
+/// that to Slurm. MachineFailure, naming the script, if
 /// there is no sbatch here.
 void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, OwnFolder& folder);
 

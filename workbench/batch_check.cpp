@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/base/failure.hpp"
 #include "workbench/batch.hpp"
@@ -27,7 +28,7 @@ bool lacks_some(const BatchRun& run, const std::vector<BatchRun>& all) {
 /// Whether a complaint is of a file that one of the runs will leave which are needed.
 bool is_of_what_comes(const std::string& complaint, const BatchRun& run, const std::vector<BatchRun>& all) {
   return std::any_of(run.needs.begin(), run.needs.end(), [&](std::size_t need) {
-    return !all[need].done && complaint.find(all[need].folder.parent_path().string()) != std::string::npos;
+    return !all[need].done && complaint.find(all[need].folder.parent_path().string() + "/") != std::string::npos;
   });
 }
 
@@ -63,8 +64,9 @@ void DeckChecks::check(BatchRun& run, const std::vector<BatchRun>& all) {
   }
   const std::vector<std::string> each = complaints.each();
   const auto comes = [&](const std::string& complaint) { return is_of_what_comes(complaint, run, all); };
-  run.postponed = lacks_some(run, all) && (complaints.errors() > 0 || !failure.empty()) &&
-                  std::all_of(each.begin(), each.end(), comes) && (failure.empty() || comes(failure));
+  run.postponed =
+      lacks_some(run, all) && std::all_of(each.begin(), each.end(), comes) && (failure.empty() || comes(failure));
+  if (run.postponed) run.done = false;  // what it was made of is made anew
   if (!run.postponed) {
     for (const std::string& complaint : each) note(complaint, run);
     if (!failure.empty()) note(failure, run);
@@ -73,6 +75,17 @@ void DeckChecks::check(BatchRun& run, const std::vector<BatchRun>& all) {
     if (run.refused) run.code = static_cast<int>(code), ++refused_;
   }
   note_row(run);
+}
+
+void DeckChecks::check_all(std::vector<BatchRun>& runs) {
+  std::vector<bool> checked(runs.size());
+  const std::function<void(std::size_t)> visit = [&](std::size_t k) {
+    if (checked[k]) return;
+    checked[k] = true;
+    for (const std::size_t need : runs[k].needs) visit(need);
+    check(runs[k], runs);
+  };
+  for (std::size_t k = 0; k < runs.size(); ++k) visit(k);
 }
 
 std::string DeckChecks::text(std::size_t all) const {

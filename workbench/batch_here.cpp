@@ -16,21 +16,18 @@ namespace beadwork {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 class Here final : public JobEvents {
   using Clock = std::chrono::steady_clock;
 
  public:
-  Here(std::vector<BatchRun>& runs, OwnFolder& folder)
-      : runs_(runs), folder_(folder), table_(folder.claim("batch.csv")) {
+  Here(std::vector<BatchRun>& runs, OwnFolder& folder) : runs_(runs), folder_(folder) {
     for (BatchRun& run : runs_) {
       if (run.done || run.refused) {
         ++ended_;
         continue;
       }
       waiting_.push_back(&run);
-      jobs_.push_back({run.name, run.folder, run.command});
+      jobs_.push_back({run.name, run.folder, command_of(run)});
     }
   }
 
@@ -53,10 +50,7 @@ class Here final : public JobEvents {
   void write() {
     written_ = Clock::now();
     for (const std::size_t job : at_work_) note_row(*waiting_[job]);
-    const ResultTable table = batch_table(runs_), means = batch_means(runs_);
-    write_atomically(table_, csv_of(table));
-    write_result_tables(folder_.claim("batch.h5"), {{"runs", table}, {"means", means}});
-    if (!means.rows.empty()) write_atomically(folder_.claim("means.csv"), csv_of(means));
+    write_tables(runs_, folder_);
   }
 
   Turn turn_of(std::size_t job) override {
@@ -69,7 +63,10 @@ class Here final : public JobEvents {
       skip(run, other);
       return Turn::never;
     }
-    return run.postponed ? turn_after_check(run) : Turn::now;
+    if (!run.postponed) return Turn::now;
+    const Turn turn = turn_after_check(run);
+    jobs_[job].command = command_of(run);  // now it is known whether it is a calibration
+    return turn;
   }
 
   /// What it needs is there now, and so its deck can be read.
@@ -152,7 +149,6 @@ class Here final : public JobEvents {
 
   std::vector<BatchRun>& runs_;
   OwnFolder& folder_;
-  const fs::path table_;
   std::vector<BatchRun*> waiting_;
   std::vector<LocalJob> jobs_;  // of these, in their order
   std::set<std::size_t> at_work_;

@@ -41,7 +41,8 @@ std::vector<double> numbers_of(const Group& group, const std::string& column) {
   std::vector<double> numbers;
   for (const BatchRun* run : group.runs)
     for (const auto& [name, value] : run->results)
-      if (const auto number = parse_number(value); name == column && number) numbers.push_back(*number);
+      if (name == column)
+        if (const auto number = parse_number(value)) numbers.push_back(*number);
   return numbers;
 }
 

@@ -50,13 +50,13 @@ BatchRun run_of(const RunList& list, const std::string& deck, const std::vector<
     run.name = list.name + "/" + run.name;
     run.title = list.name + ": " + run.title;
   }
-  run.folder = fs::absolute(out) / run.name;
+  run.folder = out / run.name;
   run.deck = common;
   run.deck.path = deck;
   for (std::size_t k = 0; k < row.size(); ++k) run.deck.settings.push_back(list.parameters[k] + "=" + row[k]);
   for (const Override& each : list.fixed) run.deck.settings.push_back(each.name + "=" + each.value);
   for (const auto& [parameter, other] : list.from)
-    run.deck.settings.push_back(parameter + "=" + (fs::absolute(out) / other).string());
+    run.deck.settings.push_back(parameter + "=" + (out / other).string());
   return run;
 }
 
@@ -80,6 +80,9 @@ std::vector<std::string> waits_for(const RunList& list) {
 class Lists {
  public:
   explicit Lists(const std::vector<RunList>& lists) : lists_(lists) {
+    for (const RunList& list : lists)
+      if (list.name.starts_with("batch.") || list.name == "means.csv" || list.name == "report.html")
+        refuse(list.at, fmt::format("'{}' is the name of a file of the batch: call the sweep otherwise", list.name));
     for (std::size_t k = 0; k < lists.size(); ++k)
       if (!index_.emplace(lists[k].name, k).second)
         refuse(lists[k].at, fmt::format("there is a sweep '{}' already", lists[k].name));
@@ -98,7 +101,8 @@ class Lists {
     for (const RunList& list : lists_) all.push_back(list.name);
     return all;
   }
-  void refuse_circles(const RunList& list, std::vector<std::string> chain) const {
+  void refuse_circles(const RunList& list, std::vector<std::string> chain) {
+    if (is_free_.contains(list.name)) return;
     for (const std::string& name : waits_for(list)) {
       const bool is_circle = std::find(chain.begin(), chain.end(), name) != chain.end();
       chain.push_back(name);
@@ -106,17 +110,35 @@ class Lists {
       refuse_circles(lists_[at(name)], chain);
       chain.pop_back();
     }
+    is_free_.insert(list.name);
   }
   const std::vector<RunList>& lists_;
   std::map<std::string, std::size_t> index_;
+  std::set<std::string> is_free_;  ///< from which no way leads back
 };
 
-/// Whether two runs have the same values of what both vary; which deck it is tells nothing.
-bool agree(const BatchRun& one, const BatchRun& other) {
-  for (const auto& [name, value] : one.values)
-    for (const auto& [its_name, its_value] : other.values)
-      if (name == its_name && name != deck_column && value != its_value) return false;
-  return true;
+/// The values of what both lists vary, as one text; which deck it is tells nothing.
+std::string shared_values(const BatchRun& run, const RunList& one, const RunList& other) {
+  std::string text;
+  for (const std::string& name : one.parameters)
+    if (std::find(other.parameters.begin(), other.parameters.end(), name) != other.parameters.end())
+      for (const auto& [its_name, value] : run.values)
+        if (its_name == name) text += name + "=" + value + "\n";
+  return text;
+}
+
+using Places = std::pair<std::size_t, std::size_t>;  ///< of a list's runs: from, to
+
+void add_needs(std::vector<BatchRun>& runs, const RunList& list, Places own, const RunList& other, Places its) {
+  std::map<std::string, std::vector<std::size_t>> by_values;
+  for (std::size_t k = its.first; k < its.second; ++k) by_values[shared_values(runs[k], list, other)].push_back(k);
+  for (std::size_t k = own.first; k < own.second; ++k) {
+    const auto found = by_values.find(shared_values(runs[k], list, other));
+    if (found == by_values.end())
+      refuse(list.at, fmt::format("'{}' waits for '{}', and none of its runs has the values of {}", list.name,
+                                  other.name, runs[k].title));
+    runs[k].needs.insert(runs[k].needs.end(), found->second.begin(), found->second.end());
+  }
 }
 
 }  // namespace
@@ -157,22 +179,22 @@ RunList list_of(const std::vector<std::string>& decks, const std::vector<Variati
 
 std::vector<BatchRun> runs_of(const std::vector<RunList>& lists, const DeckArguments& common, const fs::path& out) {
   const Lists known(lists);
+  std::error_code error;  // however it is written, one folder has one name: it stands in the decks of its runs
+  fs::path root = fs::weakly_canonical(fs::absolute(out), error);
+  if (error) root = fs::absolute(out);
+  if (root.filename().empty()) root = root.parent_path();
   std::vector<BatchRun> runs;
-  std::vector<std::pair<std::size_t, std::size_t>> places;  // of the runs of each list
+  std::vector<Places> places;
   for (const RunList& list : lists) {
     const std::size_t first = runs.size();
     for (const std::string& deck : list.decks)
-      for (const auto& row : list.rows) runs.push_back(run_of(list, deck, row, common, out));
+      for (const auto& row : list.rows) runs.push_back(run_of(list, deck, row, common, root));
     places.emplace_back(first, runs.size());
   }
   refuse_twins(runs, out);
   for (std::size_t k = 0; k < lists.size(); ++k)
-    for (const std::string& name : waits_for(lists[k])) {
-      const auto [from, to] = places[known.at(name)];
-      for (std::size_t run = places[k].first; run < places[k].second; ++run)
-        for (std::size_t other = from; other < to; ++other)
-          if (agree(runs[run], runs[other])) runs[run].needs.push_back(other);
-    }
+    for (const std::string& name : waits_for(lists[k]))
+      add_needs(runs, lists[k], places[k], lists[known.at(name)], places[known.at(name)]);
   return runs;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/base/failure.hpp"
@@ -25,12 +26,19 @@ std::string without_patterns(const std::string& path) {
 
 void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, OwnFolder& folder) {
   std::string commands;  // a line each: a job that Slurm starts once more goes on where it was
-  int count = 0;
-  for (const BatchRun& run : runs)
-    if (!run.done && !run.refused) {
-      commands += "exec " + command_line(run.command) + "\n";
-      ++count;
+  int count = 0, later = 0;
+  for (const BatchRun& run : runs) {
+    if (run.done || run.refused) continue;
+    const bool waits =
+        std::any_of(run.needs.begin(), run.needs.end(), [&](std::size_t need) { return !runs[need].done; });
+    if (waits) {
+      ++later;
+      continue;
     }
+    commands += "exec " + command_line(command_of(run)) + "\n";
+    ++count;
+  }
+  if (later > 0) say("{} runs need others that are not done: give the same command again once these are\n", later);
   if (count == 0) return;
   const auto list = std::filesystem::absolute(folder.claim("batch.commands"));
   const auto script = std::filesystem::absolute(folder.claim("batch.sbatch"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/failure.hpp"
+#include "core/io/file.hpp"
 #include "core/loop/bounded_json.hpp"
 #include "core/loop/former_run.hpp"
 #include "workbench/batch.hpp"
@@ -98,6 +99,15 @@ ResultTable batch_table(const std::vector<BatchRun>& runs) {
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+void write_tables(const std::vector<BatchRun>& runs, OwnFolder& folder) {
+  const ResultTable table = batch_table(runs), means = batch_means(runs);
+  write_atomically(folder.claim("batch.csv"), csv_of(table));
+  write_result_tables(folder.claim("batch.h5"), {{"runs", table}, {"means", means}});
+  const std::filesystem::path place = folder.claim("means.csv");  // now: a file of somebody else's is told before hours
+  std::error_code error;
+  if (!means.rows.empty() || std::filesystem::exists(place, error)) write_atomically(place, csv_of(means));
 }
 
 }  // namespace beadwork

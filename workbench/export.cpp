@@ -49,13 +49,16 @@ std::vector<record::FrameHead> chosen_frames(const std::vector<record::FrameHead
           "error: --frames wants all, first, last or steps of recorded frames, and there is none of step \"{}\"; "
           "recorded: {}",
           step, join(steps_of(all))));
-    some.push_back(*found);
+    const bool is_new =
+        std::none_of(some.begin(), some.end(), [&](const auto& other) { return other.name == found->name; });
+    if (is_new) some.push_back(*found);
   }
   return some;
 }
 
-std::vector<exported::File> files_of(const exported::Moment& moment, const std::string& format) {
-  if (format == "xyz") return exported::as_xyz(moment);
+std::vector<exported::File> files_of(const exported::Moment& moment, const std::string& format,
+                                     const exported::Families& families) {
+  if (format == "xyz") return exported::as_xyz(moment, families);
   if (format == "csv") return exported::as_csv(moment);
   return exported::as_vtu(moment);
 }
@@ -66,6 +69,9 @@ int export_run(const ExportArguments& arguments) {
   if (is_batch(run) || is_study(run))
     throw DeckFailure(fmt::format("error: '{}' holds several runs; export one of them, such as '{}'", run.string(),
                                   (run / "NAME").string()));
+  std::error_code error;
+  if (!fs::is_regular_file(run / "run.h5", error))
+    throw DeckFailure(fmt::format("error: '{}' is not the folder of a run: it holds no run.h5", run.string()));
   const record::FrameReader recorded(run / "run.h5");
   if (recorded.frames().empty())
     throw DeckFailure(fmt::format("error: '{}' has recorded no frames: <watch><snapshot/></watch> does", run.string()));
@@ -76,10 +82,16 @@ int export_run(const ExportArguments& arguments) {
   const auto write = [&](const std::vector<exported::File>& files) {
     for (const exported::File& file : files) write_atomically(folder.claim(file.name), file.text), ++count;
   };
+  const auto moment_at = [&](const record::FrameHead& head) {
+    return exported::moment_of(recorded.read(head, record::Columns::whole), lengths);
+  };
+  exported::Families families;
+  if (arguments.format == "xyz")  // a family may begin in a later stage
+    for (const record::FrameHead& head : heads) families.add(moment_at(head));
   std::vector<exported::Chapter> chapters;
   for (const record::FrameHead& head : heads) {
-    const exported::Moment moment = exported::moment_of(recorded.read(head, record::Columns::whole), lengths);
-    write(files_of(moment, arguments.format));
+    const exported::Moment moment = moment_at(head);
+    write(files_of(moment, arguments.format, families));
     chapters.push_back({moment.name, moment.time, exported::grids_of(moment)});
   }
   if (arguments.format == "vtu") write(exported::vtu_series(chapters));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/failure.hpp"
+#include "core/base/readable.hpp"
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "workbench/terminal.hpp"
@@ -12,27 +13,32 @@ namespace beadwork {
 
 namespace {
 
-Override override_of(const std::string& setting, const std::string& complaint) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string::npos || equals == 0) throw DeckFailure("error: " + complaint);
-  return {setting.substr(0, equals), setting.substr(equals + 1)};
-}
-
 /// A setting a line; what begins with # is a remark.
 std::vector<Override> settings_in(const std::string& file) {
   constexpr std::uintmax_t longest = 1 << 20;
+  if (const std::string why = why_unreadable(file); !why.empty())
+    throw DeckFailure(fmt::format("error: cannot read the settings '{}': {}", file, why));
+  std::string text = read_text(file, longest);
+  if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
   std::vector<Override> all;
   int number = 0;
-  for (const std::string& raw : split(read_text(file, longest), '\n')) {
+  for (const std::string& raw : split(text, '\n')) {
     const std::string line(trim(raw));
     ++number;
     if (line.empty() || line.starts_with('#')) continue;
-    all.push_back(override_of(line, fmt::format("{}:{}: name=value is wanted, got \"{}\"", file, number, line)));
+    all.push_back(setting_of(line, fmt::format("{}:{}: name=value is wanted, got \"{}\"", file, number, line)));
+    all.back() = {std::string(trim(all.back().name)), std::string(trim(all.back().value))};
   }
   return all;
 }
 
 }  // namespace
+
+Override setting_of(const std::string& text, const std::string& complaint) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw DeckFailure("error: " + complaint);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
 
 void DeckArguments::add_to(CLI::App& verb) {
   verb.add_option("deck", path, "The deck, an XML file")->required();
@@ -51,11 +57,11 @@ void DeckArguments::add_options_to(CLI::App& verb) {
 DeckRequest DeckArguments::request() const {
   DeckRequest request{path, {}, libraries, no_plugins};
   for (const std::string& setting : settings)
-    request.overrides.push_back(override_of(setting, fmt::format("--set wants name=value, got \"{}\"", setting)));
+    request.overrides.push_back(setting_of(setting, fmt::format("--set wants name=value, got \"{}\"", setting)));
+  const std::vector<Override> typed = request.overrides;
   for (const std::string& file : files)
-    for (const Override& each : settings_in(file))
-      if (std::none_of(request.overrides.begin(), request.overrides.end(),
-                       [&](const Override& other) { return other.name == each.name; }))
+    for (const Override& each : settings_in(file))  // twice in files is refused like twice in --set
+      if (std::none_of(typed.begin(), typed.end(), [&](const Override& other) { return other.name == each.name; }))
         request.overrides.push_back(each);
   return request;
 }

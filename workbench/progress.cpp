@@ -154,16 +154,19 @@ std::vector<std::string> Progress::lines_of(const std::vector<Part>& parts, doub
   return lines;
 }
 
+// The cursor waits at the beginning of the first line: what others write then stands above what is drawn next.
 void Progress::write(const std::vector<std::string>& lines) {
   hide();
   for (std::size_t k = 0; k < lines.size(); ++k)
     std::fprintf(stderr, "%s\r\x1b[K%s", k ? "\n" : "", safe_text(lines[k]).c_str());
+  if (lines.size() > 1) std::fprintf(stderr, "\r\x1b[%zuA", lines.size() - 1);
   std::fflush(stderr);
   shown_ = lines.size();
 }
 
 void Progress::hide() {
-  for (; shown_ > 0; --shown_) std::fputs(shown_ > 1 ? "\r\x1b[K\x1b[A" : "\r\x1b[K", stderr);
+  if (shown_ > 0) std::fputs(shown_ > 1 ? "\r\x1b[J" : "\r\x1b[K", stderr);
+  shown_ = 0;
 }
 
 void tell_batch(int socket, const Headway& headway) {

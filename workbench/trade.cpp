@@ -32,13 +32,6 @@ struct TradeArguments {
 
 constexpr Real targets[] = {0.01, 0.03, 0.1};
 
-Override override_of(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw DeckFailure(fmt::format("error: --reference wants name=value, got \"{}\"", text));
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
 std::vector<DeckKnob> chosen_knobs(const TradeArguments& arguments, const Loaded& loaded) {
   std::vector<DeckKnob> knobs = trade::knobs_of(loaded);
   for (const std::string& text : arguments.knobs) {
@@ -119,7 +112,11 @@ class Bargain {
   const std::vector<Tried>& all() const { return all_; }
   const Tried& base() const { return all_[1]; }
   Real scatter() const { return trade::scatter_of(seeds_); }
-  std::size_t seeds() const { return seeds_.size(); }
+  /// That are done.
+  std::size_t seeds() const {
+    return static_cast<std::size_t>(
+        std::count_if(seeds_.begin(), seeds_.end(), [](const Tried& one) { return one.done; }));
+  }
 
  private:
   // The reference turns all knobs one step to the slow side.
@@ -128,7 +125,7 @@ class Bargain {
     for (const DeckKnob& knob : knobs_)
       if (!knob.slower.empty()) accurate.push_back({knob.parameter, knob.slower.front()});
     for (const std::string& text : arguments_.reference) {
-      const Override own = override_of(text);
+      const Override own = setting_of(text, fmt::format("--reference wants name=value, got \"{}\"", text));
       std::erase_if(accurate, [&](const Override& other) { return other.name == own.name; });
       accurate.push_back(own);
     }
@@ -136,14 +133,23 @@ class Bargain {
     for (const std::string& seed : arguments_.seeds) settings.push_back({"seed=" + seed, {{"seed", seed}}});
     std::vector<Tried> first = trials_.run(settings);
     for (std::size_t k = 0; k < 2; ++k) {
-      if (!first[k].done)
-        throw PhysicsFailure(fmt::format("the run '{}' has failed, and there is nothing to compare with: {}",
-                                         first[k].name, first[k].reason));
+      if (first[k].done) continue;
+      const std::string why = fmt::format("the run '{}' has failed, and there is nothing to compare with: {}",
+                                          first[k].name, first[k].reason);
+      if (first[k].refused) throw DeckFailure(why);
+      throw PhysicsFailure(why);
     }
-    for (std::size_t k = 0; k < trials_.quantities().size(); ++k)
+    for (std::size_t k = 0; k < trials_.quantities().size(); ++k) {
+      const std::string& name = trials_.quantities()[k];
       if (std::isnan(first[0].quantities[k]))
-        throw DeckFailure(fmt::format("error: --quantity: the runs have no '{}'; they have what a batch's table has",
-                                      trials_.quantities()[k]));
+        throw DeckFailure(fmt::format("error: --quantity: the runs have no number '{}'{}", name,
+                                      did_you_mean(name, first[0].numbers)));
+      if (first[0].quantities[k] == 0)
+        throw DeckFailure(
+            fmt::format("error: --quantity: '{}' is 0 in the reference, and errors are told over it: "
+                        "name another",
+                        name));
+    }
     if (trials_.quantities().empty())
       throw DeckFailure("error: the runs have no curve of a force: name what is to be compared, --quantity NAME");
     seeds_.assign(first.begin() + 2, first.end());
@@ -194,8 +200,11 @@ class Bargain {
     for (Tried& one : more) {
       all_.push_back(std::move(one));
       all_.back().error = trade::error_of(all_.back(), all_.front());
-      const Tried& last = all_.back();
-      log_.say(last.done ? fmt::format("{:<40} {:>9.3g} s  error {:.3g} %", last.name, last.seconds, 100 * last.error)
+      Tried& last = all_.back();
+      if (last.done && trade::ends_elsewhere(last, all_.front()))
+        last.reason = "it ended at another displacement or time than the reference, which is hard to compare";
+      log_.say(last.done ? fmt::format("{:<40} {:>9.3g} s  error {:.3g} %{}{}", last.name, last.seconds,
+                                       100 * last.error, last.reason.empty() ? "" : "  ", last.reason)
                          : fmt::format("{:<40} failed: {}", last.name, last.reason));
     }
   }
@@ -212,6 +221,10 @@ std::string settings_text(const Tried& chosen, const TradeArguments& arguments, 
   std::string text =
       fmt::format("# {}: within {:g} % of its reference, {:.3g} % off, {:.3g} s in the loop\n",
                   fs::path(arguments.deck.path).filename().string(), 100 * target, 100 * chosen.error, chosen.seconds);
+  for (const Override& each : arguments.deck.request().overrides)
+    if (std::none_of(chosen.values.begin(), chosen.values.end(),
+                     [&](const Override& own) { return own.name == each.name; }))
+      text += each.name + "=" + each.value + "\n";
   for (const Override& each : chosen.values) text += each.name + "=" + each.value + "\n";
   return text;
 }
@@ -224,6 +237,8 @@ Office::Json advice(const Bargain& bargain, Office& office, const TradeArguments
     const std::string name = fmt::format("within-{:g}-percent", 100 * target);
     const Tried* best = trade::fastest_within(bargain.all(), target);
     if (!best) {
+      std::error_code error;  // what a former one has found, with other quantities, is no answer
+      fs::remove(office.root() / (name + ".set"), error);
       result[name] = "nothing that was tried is";
       say("within {:g} %: nothing that was tried is\n", 100 * target);
       continue;
@@ -240,7 +255,7 @@ Office::Json advice(const Bargain& bargain, Office& office, const TradeArguments
 }
 
 void put_curves(const Bargain& bargain, Office& office) {
-  std::vector<std::vector<Real>> front, all;
+  std::vector<std::vector<Real>> front;
   for (const Tried* one : trade::front_of(bargain.all())) front.push_back({one->seconds, 100 * one->error});
   office.curve(
       "front",

@@ -51,6 +51,9 @@ struct DeckArguments {
   DeckRequest request() const;
 };
 
+/// "name=value" apart. DeckFailure with this complaint if it is no such thing.
+Override setting_of(const std::string& text, const std::string& complaint);
+
 /// What went wrong as the terminal shows it: with "error:", which complaints about a deck bring along.
 std::string shown(const Fault& fault);
 

@@ -18,12 +18,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string with_article(const std::string& maker) { return (maker.front() == 'e' ? "an " : "a ") + maker; }
+
 /// Two of them in one folder would start each run twice.
 Descriptor locked(const fs::path& folder, Manifest::Of of) {
   Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock && ::flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw DeckFailure(fmt::format("error: a {} is running in '{}' already: {}; wait for it, or choose another --out",
-                                  Manifest::maker(of), folder.string(), holder_of(folder)));
+    throw DeckFailure(fmt::format("error: {} is running in '{}' already: {}; wait for it, or choose another --out",
+                                  with_article(Manifest::maker(of)), folder.string(), holder_of(folder)));
   return lock;
 }
 
@@ -51,6 +53,10 @@ std::string holder_of(const fs::path& path) {
 OwnFolder::OwnFolder(const fs::path& root, Manifest::Of of) : root_(root), of_(of) {
   make_output_folder(root, Manifest::maker(of));
   lock_ = locked(root, of);
+  for (const Manifest::Of other : Manifest::all)
+    if (other != of && Manifest::read(root, other))
+      throw DeckFailure(fmt::format("error: '{}' holds what {} made; choose another folder", root.string(),
+                                    with_article(Manifest::maker(other))));
   list_ = Manifest::read(root, of);
   if (!list_) Manifest::refuse_what_stands(root / Manifest::name_of(of), of);
 }

@@ -25,12 +25,6 @@ std::string csv_field(const std::string& raw) {
   return quoted + "\"";
 }
 
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t k = 0; k < cells.size(); ++k) line += (k ? "," : "") + csv_field(cells[k]);
-  return line + "\n";
-}
-
 std::vector<std::string> column_of(const ResultTable& table, std::size_t column) {
   std::vector<std::string> cells;
   for (const auto& row : table.rows) cells.push_back(safe_text(row[column]));
@@ -102,6 +96,12 @@ void write_table(hid_t place, const ResultTable& table) {
 }
 
 }  // namespace
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t k = 0; k < cells.size(); ++k) line += (k ? "," : "") + csv_field(cells[k]);
+  return line + "\n";
+}
 
 std::string csv_of(const ResultTable& table) {
   std::string text = csv_line(table.head);

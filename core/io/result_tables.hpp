@@ -13,6 +13,8 @@ struct ResultTable {
   std::vector<std::vector<std::string>> rows;
 };
 
+/// A line of such a file.
+std::string csv_line(const std::vector<std::string>& cells);
 /// UTF-8, whatever the cells hold; in quotes where that is needed.
 std::string csv_of(const ResultTable& table);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -67,7 +68,12 @@ struct Range {
   bool logarithmic = false;
 
   double at(double share) const { return logarithmic ? from * std::pow(to / from, share) : from + share * (to - from); }
-  std::string text(double value) const { return format_number(value) + (unit.empty() ? "" : " " + unit); }
+  /// Rounded to twelve digits, so that a step of 0.02 is called so.
+  std::string text(double value) const {
+    char digits[32];
+    const int length = std::snprintf(digits, sizeof digits, "%.12g", value);
+    return format_number(*parse_number({digits, static_cast<std::size_t>(length)})) + (unit.empty() ? "" : " " + unit);
+  }
 };
 
 inline Range range_between(const std::string& name, const std::string& from, const std::string& to, bool logarithmic) {

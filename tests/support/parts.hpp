@@ -106,6 +106,7 @@ class Parts : private Workings {
   void evaluate(bool settle) override { forces.evaluate(settle, false); }
   Real utilisation() override { return 0; }
   Real next_moment(Real until) const override { return until; }
+  void pause() override {}
   Real reach() const override { return std::numeric_limits<Real>::infinity(); }
   std::span<const ActingLaw> laws() const override { return state.laws; }
   Log& log() override { return options.log; }

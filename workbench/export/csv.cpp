@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/base/text.hpp"
+#include "core/io/result_tables.hpp"
 #include "workbench/export/formats.hpp"
 
 namespace beadwork::exported {
@@ -11,19 +11,19 @@ namespace {
 using Words = std::vector<std::pair<std::string, const std::vector<std::string>*>>;
 
 std::string table(const Grid& grid, const Words& words = {}) {
-  std::string text;
+  std::vector<std::string> head;
   for (const Column& column : grid.columns)
     for (const std::string& component : components(column.width))
-      text += fmt::format("{}{}{} [{}]", text.empty() ? "" : ",", column.name, component, column.unit);
-  for (const auto& [name, column] : words) text += "," + name;
-  text += "\n";
+      head.push_back(fmt::format("{}{} [{}]", column.name, component, column.unit));
+  for (const auto& [name, column] : words) head.push_back(name);
+  std::string text = csv_line(head);
   for (std::size_t row = 0; row < grid.rows; ++row) {
-    std::string line;
+    std::vector<std::string> cells;
     for (const Column& column : grid.columns)
       for (std::size_t k = 0; k < static_cast<std::size_t>(column.width); ++k)
-        line += (line.empty() ? "" : ",") + number(column, static_cast<std::size_t>(column.width) * row + k);
-    for (const auto& [name, column] : words) line += "," + (*column)[row];
-    text += line + "\n";
+        cells.push_back(number(column, static_cast<std::size_t>(column.width) * row + k));
+    for (const auto& [name, column] : words) cells.push_back((*column)[row]);
+    text += csv_line(cells);
   }
   return text;
 }
@@ -50,7 +50,6 @@ std::vector<File> as_csv(const Moment& moment) {
 }
 
 std::vector<File> as_csv(const record::Breaks& breaks, const Lengths& lengths) {
-  if (breaks.time.empty()) return {};
   Words words;
   if (breaks.family.size() == breaks.time.size()) words.emplace_back("family", &breaks.family);
   words.emplace_back("mode", &breaks.mode);

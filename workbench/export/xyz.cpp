@@ -44,18 +44,7 @@ std::string elements_text(const Moment& moment) {
   return text;
 }
 
-/// The fields of any family, each once; a family that lacks one has zeros there.
-std::vector<std::pair<std::string, int>> fields_of(const std::vector<Grid>& families) {
-  std::vector<std::pair<std::string, int>> fields;
-  for (const Grid& family : families)
-    for (const Column& column : family.columns) {
-      const std::pair<std::string, int> field{column.name, column.width};
-      const bool is_usual = column.name == "id" || column.name == "ends" || column.name == "state";
-      if (!is_usual && std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
-    }
-  return fields;
-}
-
+/// A family that lacks a field has zeros there.
 void add_field(std::string& text, const Grid& family, const std::pair<std::string, int>& field, std::size_t row) {
   for (const Column& column : family.columns)
     if (column.name == field.first && column.width == field.second) return add_row(text, column, row);
@@ -75,25 +64,24 @@ std::string bounds_of(const Column& position) {
   return text;
 }
 
-std::string bonds_text(const Moment& moment) {
-  const auto fields = fields_of(moment.bonds);
+std::string bonds_text(const Moment& moment, const Families& all) {
   std::size_t rows = 0;
   for (const Grid& family : moment.bonds) rows += family.rows;
   std::string text = fmt::format(
       "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ENTRIES\n{}\nITEM: BOX BOUNDS ff ff ff\n{}ITEM: ENTRIES family "
       "id element-1 element-2 state",
       moment.step, rows, bounds_of(moment.elements.at("position")));
-  for (const auto& [name, width] : fields)
+  for (const auto& [name, width] : all.fields)
     for (const std::string& component : components(width)) text += " " + plain(name + component);
   text += "\n";
   const Column& id = moment.elements.at("id");
-  for (std::size_t f = 0; f < moment.bonds.size(); ++f) {
-    const Grid& family = moment.bonds[f];
+  for (const Grid& family : moment.bonds) {
+    const auto number_of = std::find(all.names.begin(), all.names.end(), family.name) - all.names.begin() + 1;
     const Column &own = family.at("id"), &ends = family.at("ends"), &state = family.at("state");
     for (std::size_t row = 0; row < family.rows; ++row) {
       const auto end = [&](std::size_t k) { return id.integers[static_cast<std::size_t>(ends.integers[2 * row + k])]; };
-      text += fmt::format("{} {} {} {} {}", f + 1, own.integers[row], end(0), end(1), state.integers[row]);
-      for (const auto& field : fields) add_field(text, family, field, row);
+      text += fmt::format("{} {} {} {} {}", number_of, own.integers[row], end(0), end(1), state.integers[row]);
+      for (const auto& field : all.fields) add_field(text, family, field, row);
       text += "\n";
     }
   }
@@ -102,9 +90,20 @@ std::string bonds_text(const Moment& moment) {
 
 }  // namespace
 
-std::vector<File> as_xyz(const Moment& moment) {
+void Families::add(const Moment& moment) {
+  for (const Grid& family : moment.bonds) {
+    if (std::find(names.begin(), names.end(), family.name) == names.end()) names.push_back(family.name);
+    for (const Column& column : family.columns) {
+      const std::pair<std::string, int> field{column.name, column.width};
+      const bool is_usual = column.name == "id" || column.name == "ends" || column.name == "state";
+      if (!is_usual && std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
+    }
+  }
+}
+
+std::vector<File> as_xyz(const Moment& moment, const Families& all) {
   std::vector<File> files{{"elements-" + moment.name + ".xyz", elements_text(moment)}};
-  if (!moment.bonds.empty()) files.push_back({"bonds-" + moment.name + ".dump", bonds_text(moment)});
+  if (!all.names.empty()) files.push_back({"bonds-" + moment.name + ".dump", bonds_text(moment, all)});
   return files;
 }
 

@@ -35,12 +35,27 @@ class Rows {
   }
   const std::vector<std::string>& names() const { return names_; }
   const std::vector<std::string>& at(const std::string& name) const { return values_.at(name); }
+  /// Among those runs that have what it is a part of.
   bool differs(const std::string& name) const {
     const auto& row = at(name);
-    return std::any_of(row.begin(), row.end(), [&](const std::string& value) { return value != row.front(); });
+    const auto whole = values_.find(whole_of(name));
+    const std::string* first = nullptr;
+    for (std::size_t k = 0; k < runs_; ++k) {
+      if (whole != values_.end() && whole->second[k].empty()) continue;
+      if (first && row[k] != *first) return true;
+      first = &row[k];
+    }
+    return false;
   }
 
  private:
+  /// "bond / spring a" of "bond / spring a: young", "bond" of "bond / spring a".
+  static std::string whole_of(const std::string& name) {
+    const std::size_t colon = name.find(": "), slash = name.rfind(" / ");
+    if (colon != std::string::npos) return name.substr(0, colon);
+    return slash == std::string::npos ? "" : name.substr(0, slash);
+  }
+
   std::size_t runs_;
   std::vector<std::string> names_;
   std::map<std::string, std::vector<std::string>> values_;
@@ -79,13 +94,11 @@ std::string table_of(const std::vector<std::string>& labels, const std::string& 
 }
 
 std::string decks_table(const Rows& rows, const std::vector<std::string>& labels) {
-  std::string body, within;
+  std::string body;
   for (const std::string& name : rows.names()) {
-    if (!within.empty() && (name.starts_with(within + ":") || name.starts_with(within + " /"))) continue;
     if (!rows.differs(name)) continue;
     const auto& row = rows.at(name);
     const bool is_tag = name.find(": ") == std::string::npos;
-    if (is_tag) within = name;  // a run lacks the whole of it
     body += "<tr><th>" + escaped(is_tag ? name + " (the tag)" : name) + "</th>";
     for (const std::string& value : row) body += "<td>" + escaped(value.empty() ? "–" : value) + "</td>";
     body += "</tr>\n";

@@ -130,6 +130,20 @@ std::vector<record::FrameHead> chosen(const std::vector<record::FrameHead>& all)
   return some;
 }
 
+namespace {
+
+/// The still pictures are there without it.
+std::string to_be_turned(Run& run, const Stage& stage, const std::vector<record::Frame>& frames) {
+  try {
+    return turnable(run, stage, frames);
+  } catch (const std::exception& problem) {
+    run.notes.push_back("The specimen cannot be turned (" + std::string(problem.what()) + ").");
+    return "";
+  }
+}
+
+}  // namespace
+
 std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, const std::string& wanted) {
   if (!run.recorded) return "";
   if (pictured.empty()) {
@@ -154,7 +168,7 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, c
                                    [&](const record::FrameHead& h) { return h.name == frame.head.name; });
     body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
   }
-  return section("The specimen", body + "</div>") + turnable(run, stage, frames) + field_pictures(stage, frames);
+  return section("The specimen", body + "</div>") + to_be_turned(run, stage, frames) + field_pictures(stage, frames);
 }
 
 }  // namespace beadwork::report

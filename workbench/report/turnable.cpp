@@ -30,7 +30,7 @@ std::string three_js() {
   return std::filesystem::is_regular_file(place, error) ? read_text(place, 1 << 24) : "";
 }
 
-/// The fields of all frames that are numbers, at most some.
+/// The fields of the first frame, at most some.
 std::vector<const record::FieldValues*> fields_of(const record::Frame& frame) {
   std::vector<const record::FieldValues*> fields;
   for (const record::FieldValues& field : frame.fields)
@@ -110,15 +110,19 @@ class Packer {
 
   Json packed_frame(const record::Frame& frame, const Vec3& centre) const {
     std::vector<float> position(3 * kept_.size(), NAN);
-    std::vector<std::vector<float>> fields(fields_of(first_).size(), std::vector<float>(kept_.size(), NAN));
+    const std::vector<const record::FieldValues*> wanted = fields_of(first_);
+    std::vector<std::vector<float>> fields(wanted.size(), std::vector<float>(kept_.size(), NAN));
+    std::vector<const record::FieldValues*> own(wanted.size(), nullptr);
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      for (const record::FieldValues& field : frame.fields)
+        if (field.name == wanted[k]->name) own[k] = &field;
     for (std::size_t i = 0; i < frame.id.size(); ++i) {
       const auto row = row_.find(frame.id[i]);
       if (row == row_.end()) continue;
       for (int c = 0; c < 3; ++c)
         position[3 * row->second + static_cast<std::size_t>(c)] = static_cast<float>(frame.position[i][c] - centre[c]);
       for (std::size_t k = 0; k < fields.size(); ++k)
-        for (const record::FieldValues& field : frame.fields)
-          if (field.name == fields_of(first_)[k]->name) fields[k][row->second] = static_cast<float>(field.values[i]);
+        if (own[k]) fields[k][row->second] = static_cast<float>(own[k]->values[i]);
     }
     Json json{{"label", label_of(frame)}, {"position", packed(position)}, {"fields", Json::array()}};
     for (const auto& field : fields) json["fields"].push_back(packed(field));
@@ -183,11 +187,12 @@ std::string turnable(Run& run, const Stage& stage, const std::vector<record::Fra
   }
   const Packer packer(run, stage, frames);
   if (packer.is_empty()) return "";
-  std::string json = packer.data().dump();
+  std::string json = packer.data().dump(-1, ' ', false, Json::error_handler_t::replace);
   for (std::size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at)) json.replace(at, 2, "<\\/");
-  return section("The specimen, to be turned", std::string(page) + "<script type=\"application/json\" id=\"turnable-data\">" + json +
-                                     "</script>\n<script>" + three + "</script>\n<script>" +
-                                     std::string(turnable_script) + "</script>\n");
+  return section("The specimen, to be turned", std::string(page) +
+                                                   "<script type=\"application/json\" id=\"turnable-data\">" + json +
+                                                   "</script>\n<script>" + three + "</script>\n<script>" +
+                                                   std::string(turnable_script) + "</script>\n");
 }
 
 }  // namespace beadwork::report

@@ -30,9 +30,20 @@ Quantities usual_quantities(const Outcome& outcome) {
 
 Tried tried(const std::string& name, const std::vector<Override>& values, const Outcome& outcome,
             const Quantities& quantities) {
-  Tried one{name, values, outcome.is_done(), outcome.is_done() ? "" : outcome.reason, outcome.number("loop_seconds"),
-            {}};
+  Tried one;
+  one.name = name;
+  one.values = values;
+  one.done = outcome.is_done();
+  one.refused = outcome.code == ExitCode::deck;
+  if (!one.done) one.reason = outcome.reason;
+  one.seconds = outcome.number("loop_seconds");
   const Results results = results_of(outcome.folder);
+  for (const auto& [known, value] : results) {
+    const auto number = parse_number(value);
+    if (number) one.numbers.push_back(known);
+    if (number && known.find(": final ") != std::string::npos) one.ends.push_back(*number);
+  }
+  if (one.ends.empty()) one.ends = {outcome.number("time")};
   for (const std::string& quantity : quantities) {
     const auto found =
         std::find_if(results.begin(), results.end(), [&](const auto& result) { return result.first == quantity; });
@@ -52,11 +63,19 @@ Real error_of(const Tried& one, const Tried& reference) {
   return worst;
 }
 
+bool ends_elsewhere(const Tried& one, const Tried& reference) {
+  constexpr Real little = 0.02;
+  for (std::size_t k = 0; k < std::min(one.ends.size(), reference.ends.size()); ++k)
+    if (std::abs(one.ends[k] - reference.ends[k]) > little * std::abs(reference.ends[k])) return true;
+  return false;
+}
+
 Real scatter_of(const std::vector<Tried>& seeds) {
   Real worst = 0;
   std::vector<const Tried*> done;
   for (const Tried& each : seeds)
-    if (each.done) done.push_back(&each);
+    if (each.done && std::none_of(each.quantities.begin(), each.quantities.end(), [](Real x) { return std::isnan(x); }))
+      done.push_back(&each);
   if (done.size() < 2) return 0;
   for (std::size_t k = 0; k < done.front()->quantities.size(); ++k) {
     std::vector<Real> numbers;

@@ -159,6 +159,9 @@ def rows_of(source):
             for row in csv.DictReader(file):
                 yield {key: value if key in ("deck", "seed") else float(value or "nan") for key, value in row.items()}
         return
+    if not source.is_dir():
+        print(f"figures.py: there is no '{source}', and it is left out", file=sys.stderr)
+        return
     for path in sorted(source.iterdir()):
         done = path.name.startswith("deck=") and (path / "summary.json").exists()
         if done and json.loads((path / "summary.json").read_text())["status"] == "done":
@@ -187,7 +190,7 @@ def main_table(decks):
     print("|---|" + "---|" * 17)
     for name, rows in decks.items():
         def mean(key, scale=1.0, digits=3, of=rows):
-            return spread([row[key] for row in of], scale, digits)
+            return spread([row.get(key, math.nan) for row in of], scale, digits)
 
         print("| " + " | ".join([
             name, str(len(rows)),
@@ -227,10 +230,10 @@ def main():
     rows = [found[key] for key in sorted(found)]
     if arguments.rows and rows:
         with open(arguments.rows, "w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(rows[0])
+            writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)), restval="", lineterminator="\n")
+            writer.writeheader()
             for row in rows:
-                writer.writerow([value if isinstance(value, str) else "" if math.isnan(value) else f"{value:.6g}" for value in row.values()])
+                writer.writerow({key: value if isinstance(value, str) else "" if math.isnan(value) else f"{value:.6g}" for key, value in row.items()})
     decks = by_deck(rows)
     main_table(decks)
     pores(decks)

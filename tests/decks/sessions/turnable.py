@@ -25,7 +25,10 @@ except ImportError:
     websocket = None
 if not chromium or not websocket:
     print("skipped: chromium and python3-websocket are not installed", file=sys.stderr)
-    sys.exit(0)
+    sys.exit(SKIPPED)
+if 'id="turnable"' not in report.read_text(encoding="utf-8"):
+    print("skipped: three.js is not installed", file=sys.stderr)
+    sys.exit(SKIPPED)
 
 
 class Browser:
