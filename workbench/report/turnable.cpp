@@ -58,17 +58,19 @@ class Packer {
               {"factor", scale.factor},
               {"unit", scale.unit},
               {"view", axis_of(stage_.views.front().camera)}};
-    std::vector<float> radius;
+    std::vector<float> radius, rest;
     std::vector<std::int32_t> id;
     std::vector<std::uint8_t> color;
     for (const std::size_t i : kept_) {
       radius.push_back(static_cast<float>(first_.radius[i]));
       id.push_back(static_cast<std::int32_t>(first_.id[i]));
+      for (int c = 0; c < 3; ++c) rest.push_back(static_cast<float>(at_rest(first_, i)[c] - centre[c]));
       const Color c = color_of(first_.id[i]);
       for (const float part : {c.red, c.green, c.blue})
         color.push_back(static_cast<std::uint8_t>(std::lround(255 * part)));
     }
     json["radius"] = packed(radius);
+    json["rest"] = packed(rest);
     json["id"] = packed(id);
     json["color"] = packed(color);
     json["fields"] = Json::array();

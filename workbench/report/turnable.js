@@ -8,7 +8,7 @@
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const floats = (text) => new Float32Array(bytes(text));
   const count = data.elements;
-  const radius = floats(data.radius), ids = new Int32Array(bytes(data.id)), sets = new Uint8Array(bytes(data.color));
+  const rest = floats(data.rest), radius = floats(data.radius), ids = new Int32Array(bytes(data.id)), sets = new Uint8Array(bytes(data.color));
   const frames = data.frames.map((f) => ({
     label: f.label, position: floats(f.position), fields: f.fields.map(floats),
     ends: new Uint32Array(bytes(f.ends)), state: new Uint8Array(bytes(f.state)), family: new Uint8Array(bytes(f.family)),
@@ -117,6 +117,8 @@
     }
   }
   const mode = () => ({ bodies: what.value !== "cracks", bonds: what.value !== "bodies" });
+  // Bonds are shown where they were: what flies about says nothing of a crack.
+  const places = () => (what.value === "bodies" ? current().position : rest);
   function join(frame) {
     const place = [], tint = [];
     const show = mode().bonds;
@@ -124,7 +126,7 @@
       if (what.value === "cracks" && frame.state[b] === 0) continue;
       for (let e = 0; e < 2; ++e) {
         const i = 3 * frame.ends[2 * b + e];
-        place.push(frame.position[i], frame.position[i + 1], frame.position[i + 2]);
+        place.push(rest[i], rest[i + 1], rest[i + 2]);
         tint.push(...stateColor[frame.state[b]]);
       }
     }
@@ -149,7 +151,7 @@
     const frame = current(), axis = "xyz".indexOf(cut.value);
     uniforms.plane.value.set(axis === 0, axis === 1, axis === 2, axis < 0 ? 1 : (Number(at.value) / 1000 - 0.5) * data.size[axis] * 1.02);
     at.disabled = axis < 0;
-    spheres.attributes.position.array.set(frame.position);
+    spheres.attributes.position.array.set(places());
     spheres.attributes.position.needsUpdate = true;
     paint(frame);
     bondsDrawn = join(frame);
@@ -157,7 +159,7 @@
     uniforms.faint.value = what.value === "both" ? 0.25 : 1;
     lines.material.depthTest = what.value !== "both";  // seen through the elements
     lines.renderOrder = 1;
-    box.querySelector(".when").textContent = frame.label;
+    box.querySelector(".when").textContent = frame.label + (what.value === "bodies" ? "" : ", not deformed");
     draw();
   }
 
@@ -196,7 +198,7 @@
   function pick(x, y) {
     const width = canvas.clientWidth, height = canvas.clientHeight;
     const wx = camera.left + (x / width) * (camera.right - camera.left), wy = camera.top - (y / height) * (camera.top - camera.bottom);
-    const p = new THREE.Vector3(), plane = uniforms.plane.value, position = current().position;
+    const p = new THREE.Vector3(), plane = uniforms.plane.value, position = places();
     let best = -1, front = -Infinity;
     for (let i = 0; i < count; ++i) {
       p.set(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
