@@ -46,7 +46,7 @@ struct Variation {
 };
 /// DeckFailure if the text is no such thing.
 Variation variation_of(const std::string& text);
-/// All combinations, the last parameter varying fastest, as a list without a name; refuses more than `most`.
+/// All combinations, the last parameter varying fastest, as a list without a name; DeckFailure beyond a million.
 RunList list_of(const std::vector<std::string>& decks, const std::vector<Variation>& variations);
 /// The runs of these lists, list by list, deck by deck; `out` is the folder of all. DeckFailure if two would write one
 /// folder, if lists wait for one another, or for none that there is.

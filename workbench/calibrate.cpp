@@ -55,9 +55,9 @@ int calibrate(const CalibrateArguments& arguments) {
     if (!quiet) say("{}\n", line), std::fflush(stdout);
   };
   Progress progress(tell_all, !quiet);
-  const Log beside = log_beside(progress);
-  const Log log =
-      quiet ? Log([](const std::string&) {}, [beside](const std::string& line) { beside.warn(line); }) : beside;
+  const std::string whose = arguments.label.empty() ? "" : "[" + arguments.label + "] ";
+  const Log log([&](const std::string& line) { progress.hide(), tell_all(line); },
+                [&](const std::string& line) { progress.hide(), say_error("{}warning: {}\n", whose, line); });
   SceneRunnerOptions options = runs_of(arguments, progress, log);
   if (!arguments.batch.empty()) options.command = arguments.batch;
   options.progress = [&](const Headway& headway) {
@@ -107,12 +107,7 @@ void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words) {
                    "Of the material, such as '1200 kg/m^3', in the place of the deck's");
   verb->add_option("--tests", arguments->tests,
                    "What the bonds that were found are put to, such as 'compression wave', in the place of the deck's");
-  verb->add_option("--jobs", arguments->shares.jobs, "Runs at once; where absent as many as there are processors for")
-      ->check(CLI::Range(1, 1024));
-  verb->add_option(
-          "--threads", arguments->shares.threads,
-          "Threads of each run; where absent the processors that it may use, shared out among the runs at once")
-      ->check(CLI::Range(1, 1024));
+  add_shares(*verb, arguments->shares);
   verb->add_flag("-q,--quiet", arguments->quiet, "Only warnings and errors on the terminal");
   verb->add_option("--batch", arguments->batch)->group("");  // these three are for batch
   verb->add_option("--label", arguments->label)->group("");

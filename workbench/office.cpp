@@ -51,6 +51,13 @@ void Office::close(const std::string& status, ExitCode code, const std::string& 
   write("summary.json", json_text(summary_, 2) + "\n");
 }
 
+void add_shares(CLI::App& verb, Shares& shares, const std::string& jobs) {
+  verb.add_option("--jobs", shares.jobs, "Runs at once; where absent " + jobs)->check(CLI::Range(1, 1024));
+  verb.add_option("--threads", shares.threads,
+                  "Threads of each run; where absent the processors that it may use, shared out among the runs at once")
+      ->check(CLI::Range(1, 1024));
+}
+
 Log log_beside(Progress& progress) {
   return {[&progress](const std::string& line) {
             progress.hide();

@@ -41,6 +41,9 @@ class Office {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
+/// --jobs and --threads of a verb that runs scenes; `jobs` says what holds where --jobs is absent.
+void add_shares(CLI::App& verb, Shares& shares, const std::string& jobs = "as many as there are processors for");
+
 /// Says and warns on the terminal, where the bar of progress makes room for it.
 Log log_beside(Progress& progress);
 

@@ -320,12 +320,7 @@ void add_trade(CLI::App& app, Chosen& chosen, const Words& words) {
       ->allow_extra_args(false);
   verb->add_option("--seeds", arguments->seeds, "Values of the deck's parameter 'seed', for the scatter: 1,2,3")
       ->delimiter(',');
-  verb->add_option("--jobs", arguments->shares.jobs, "Runs at once; 1 where absent, as time is what is measured")
-      ->check(CLI::Range(1, 1024));
-  verb->add_option(
-          "--threads", arguments->shares.threads,
-          "Threads of each run; where absent the processors that it may use, shared out among the runs at once")
-      ->check(CLI::Range(1, 1024));
+  add_shares(*verb, arguments->shares, "1, as time is what is measured");
   verb->callback([&chosen, arguments] { chosen = [arguments] { return trade_off(*arguments); }; });
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 // The values that a sweep gives its parameters: lists, ranges, and samples of ranges.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -70,9 +71,7 @@ struct Range {
   double at(double share) const { return logarithmic ? from * std::pow(to / from, share) : from + share * (to - from); }
   /// Rounded to twelve digits, so that a step of 0.02 is called so.
   std::string text(double value) const {
-    char digits[32];
-    const int length = std::snprintf(digits, sizeof digits, "%.12g", value);
-    return format_number(*parse_number({digits, static_cast<std::size_t>(length)})) + (unit.empty() ? "" : " " + unit);
+    return format_number(*parse_number(fmt::format("{:.12g}", value))) + (unit.empty() ? "" : " " + unit);
   }
 };
 

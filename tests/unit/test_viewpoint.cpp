@@ -71,6 +71,16 @@ TEST(Viewpoint, what_the_snapshot_asks_for_goes_first) {
   EXPECT_EQ(choose_viewpoint(Weak{}, size, "x").bodies, 0);
 }
 
+TEST(Viewpoint, a_snapshot_may_ask_for_several_axes) {
+  record::Frame frame = broken_at(30, [&](std::size_t k) { return anywhere(k, Vec3(20, 4, 20)); });
+  frame.head.view = "z y";
+  ASSERT_EQ(wanted_view({frame}), "zy");
+  std::vector<std::string> names;
+  for (const View& view : set_up(frame, {frame}, {}, wanted_view({frame})).views)
+    if (view.show == Show::bodies) names.push_back(view.name.substr(0, 12));
+  EXPECT_EQ(names, (std::vector<std::string>{"seen along z", "seen along y"}));
+}
+
 TEST(ColorScale, splinters_do_not_make_all_others_alike) {
   std::vector<Real> values(1000);
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = 1 + static_cast<Real>(k);

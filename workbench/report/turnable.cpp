@@ -135,9 +135,8 @@ class Packer {
   // Those of an interface, and whatever is no longer intact.
   void add_bonds(const record::Frame& frame, Json& json) const {
     std::vector<std::uint32_t> ends;
-    std::vector<std::uint8_t> state, family;
-    for (std::size_t f = 0; f < frame.bonds.size(); ++f) {
-      const record::Bonds& bonds = frame.bonds[f];
+    std::vector<std::uint8_t> state;
+    for (const record::Bonds& bonds : frame.bonds) {
       const bool whole =
           std::find(stage_.interfaces.begin(), stage_.interfaces.end(), bonds.family) != stage_.interfaces.end();
       for (std::size_t b = 0; b < bonds.ends.size(); ++b) {
@@ -147,12 +146,10 @@ class Packer {
         if (i == row_.end() || j == row_.end()) continue;
         ends.insert(ends.end(), {static_cast<std::uint32_t>(i->second), static_cast<std::uint32_t>(j->second)});
         state.push_back(static_cast<std::uint8_t>(bonds.state[b]));
-        family.push_back(static_cast<std::uint8_t>(f));
       }
     }
     json["ends"] = packed(ends);
     json["state"] = packed(state);
-    json["family"] = packed(family);
   }
 
   const Run& run_;

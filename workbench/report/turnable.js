@@ -11,7 +11,7 @@
   const rest = floats(data.rest), radius = floats(data.radius), ids = new Int32Array(bytes(data.id)), sets = new Uint8Array(bytes(data.color));
   const frames = data.frames.map((f) => ({
     label: f.label, position: floats(f.position), fields: f.fields.map(floats),
-    ends: new Uint32Array(bytes(f.ends)), state: new Uint8Array(bytes(f.state)), family: new Uint8Array(bytes(f.family)),
+    ends: new Uint32Array(bytes(f.ends)), state: new Uint8Array(bytes(f.state)),
   }));
   const stateColor = [[0.357, 0.592, 0.82], [0.961, 0.639, 0], [0.702, 0.071, 0.247]];
 

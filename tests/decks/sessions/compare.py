@@ -22,6 +22,6 @@ young = decks["bond / cohesive-beam thick: young"]
 assert [float(value.split()[0]) for value in young] == [1e11, 5e10, 1e11], young
 assert decks["load / hold left: axes"][2] == "x" and decks["load / hold left: axes"][0] == decks["load / hold left: axes"][1]
 results = table_of("What came of them")
-assert results["elements"][0] == "4" or results["elements"][0] == "3", results["elements"]
+assert results["elements"] == ["3", "3", "3"], results["elements"]
 assert results["breaks: axial"][:1] == ["1"], results
 assert "%" in results["steps"][1], results["steps"]

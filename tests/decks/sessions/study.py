@@ -11,6 +11,7 @@ with open(folder / "batch.csv", newline="", encoding="utf-8") as file:
 assert len(runs) == 9 and all(row["status"] == "done" for row in runs.values()), {k: v["status"] for k, v in runs.items()}
 for seed in "123":
     packing = json.loads((folder / f"packings/seed={seed}/summary.json").read_text())
+    assert 1e6 < packing["peak_memory_bytes"] < 1e9, packing["peak_memory_bytes"]
     for young in ("1-GPa", "2-GPa"):
         name = f"beams/young={young},seed={seed}"
         assert runs[name]["young"] == young.replace("-", " ") and runs[name]["seed"] == seed
