@@ -304,6 +304,20 @@ std::string format_quantity(double si, std::string_view unit) {
   return format_number(found->from_si(si)) + (unit == "1" ? "" : " " + std::string(unit));
 }
 
+std::string Amount::text() const { return format_number(value) + (unit_name.empty() ? "" : " " + unit_name); }
+
+std::optional<Amount> parse_amount(std::string_view text) {
+  const std::string_view plain = trim(text);
+  const std::size_t blank = plain.find_first_of(blanks);
+  const auto value = parse_number(plain.substr(0, blank));
+  if (!value) return {};
+  if (blank == std::string_view::npos) return Amount{*value, {}, {}};
+  const std::string_view name = trim(plain.substr(blank));
+  const auto unit = find_unit(name);
+  if (!unit) return {};
+  return Amount{*value, std::string(name), *unit};
+}
+
 std::string format_quantity(const Quantity& quantity) {
   const std::string unit = quantity.dimension.name();
   return format_number(quantity.value) + (unit == "1" ? "" : " " + unit);

@@ -53,6 +53,19 @@ std::optional<LeadingUnit> find_leading_unit(std::string_view text);
 /// Why `text` is no unit, with what to write: `unknown unit "mmm". Did you mean "mm"?`
 std::string why_no_unit(std::string_view text);
 
+/// A number with its unit as people write it.
+struct Amount {
+  double value = 0;       ///< in `unit`
+  std::string unit_name;  ///< empty for a plain number
+  Unit unit;
+
+  Quantity quantity() const { return {unit.to_si(value), unit.dimension}; }
+  std::string text() const;  ///< "30 GPa"
+};
+
+/// "30 GPa" or "3", with blanks around it; nothing for anything else, such as a formula.
+std::optional<Amount> parse_amount(std::string_view text);
+
 /// A value in SI printed in a unit: format_quantity(0.014, "mm") is "14 mm". The unit must exist.
 std::string format_quantity(double si, std::string_view unit);
 /// A quantity printed in the SI unit of its dimension.

@@ -31,21 +31,11 @@ std::vector<std::string> column_of(const ResultTable& table, std::size_t column)
   return cells;
 }
 
+/// In SI.
 struct Numbers {
   std::vector<Real> values;
   Dimension dimension;
 };
-
-/// "30 GPa" in SI, a plain number as it is.
-std::optional<Quantity> quantity_of(const std::string& text) {
-  const std::size_t blank = text.find(' ');
-  const auto number = parse_number(std::string_view(text).substr(0, blank));
-  if (!number) return std::nullopt;
-  if (blank == std::string::npos) return Quantity{*number, {}};
-  const auto unit = find_unit(trim(std::string_view(text).substr(blank)));
-  if (!unit) return std::nullopt;
-  return Quantity{unit->to_si(*number), unit->dimension};
-}
 
 std::optional<Numbers> numbers_of(const std::vector<std::string>& cells) {
   Numbers numbers;
@@ -53,10 +43,10 @@ std::optional<Numbers> numbers_of(const std::vector<std::string>& cells) {
   for (const std::string& cell : cells) {
     numbers.values.push_back(NAN);
     if (cell.empty()) continue;
-    const auto quantity = quantity_of(cell);
-    if (!quantity || (any && !(quantity->dimension == numbers.dimension))) return std::nullopt;
-    numbers.values.back() = quantity->value;
-    numbers.dimension = quantity->dimension;
+    const auto amount = parse_amount(cell);
+    if (!amount || (any && !(amount->unit.dimension == numbers.dimension))) return std::nullopt;
+    numbers.values.back() = amount->quantity().value;
+    numbers.dimension = amount->unit.dimension;
     any = true;
   }
   if (!any) return std::nullopt;

@@ -11,8 +11,12 @@ class Failure : public Plugin {
   static constexpr Kind its_kind = Kind::fail;
   Param<std::vector<std::string>> of{
       this, {.name = "of", .doc = "Families of the bonds that may break", .role = Role::family}};
-  Param<std::int64_t> every{
-      this, {.name = "every", .range = {1}, .doc = "Steps from one check to the next", .fallback = "1"}};
+  Param<std::int64_t> every{this,
+                            {.name = "every",
+                             .range = {1},
+                             .doc = "Steps from one check to the next",
+                             .fallback = "1",
+                             .knob = Knob::larger_is_faster}};
   Param<std::vector<std::string>> except{
       this,
       {.name = "except",

@@ -44,21 +44,10 @@ inline std::vector<Clause> clauses(const std::string& text) {
   return all;
 }
 
-/// A number with its unit as the deck writes it: "30 GPa".
-struct Bound {
-  double value = 0;
-  std::string unit;  ///< empty for a plain number
-};
-
-inline Bound bound_of(const std::string& text) {
-  const std::string_view plain = trim(text);
-  const std::size_t blank = plain.find_first_of(blanks);
-  const auto value = parse_number(plain.substr(0, blank));
-  const std::string unit(blank == std::string_view::npos ? "" : trim(plain.substr(blank)));
-  if (!value || (!unit.empty() && !find_unit(unit)))
-    throw Wrong("wants a number with its unit, such as 30 GPa, at either end of a range, got \"" + std::string(plain) +
-                "\"");
-  return {*value, unit};
+inline Amount bound_of(const std::string& text) {
+  if (auto amount = parse_amount(text)) return *std::move(amount);
+  throw Wrong("wants a number with its unit, such as 30 GPa, at either end of a range, got \"" +
+              std::string(trim(text)) + "\"");
 }
 
 /// `from to until`, both in the unit of the first.
@@ -76,12 +65,10 @@ struct Range {
 };
 
 inline Range range_between(const std::string& name, const std::string& from, const std::string& to, bool logarithmic) {
-  const Bound low = bound_of(from), high = bound_of(to);
-  const Unit first = low.unit.empty() ? Unit{} : *find_unit(low.unit);
-  const Unit second = high.unit.empty() ? Unit{} : *find_unit(high.unit);
-  if (!(first.dimension == second.dimension))
+  const Amount low = bound_of(from), high = bound_of(to);
+  if (!(low.unit.dimension == high.unit.dimension))
     throw Wrong("has a range of '" + name + "' between two kinds of quantity, \"" + from + "\" and \"" + to + "\"");
-  Range range{name, low.value, first.from_si(second.to_si(high.value)), low.unit, logarithmic};
+  Range range{name, low.value, low.unit.from_si(high.quantity().value), low.unit_name, logarithmic};
   if (range.from == range.to)
     throw Wrong("has an empty range of '" + name + "': it begins and ends at \"" + from + "\"");
   if (logarithmic && !(range.from * range.to > 0))

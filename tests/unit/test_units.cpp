@@ -85,6 +85,19 @@ TEST(Units, a_value_is_written_in_the_unit_that_is_asked_for) {
   EXPECT_EQ(format_quantity(Quantity{2.5e7, find_unit("Pa")->dimension}), "2.5e+07 Pa");
 }
 
+TEST(Units, a_number_with_its_unit_is_read_and_written) {
+  const auto amount = parse_amount(" 30\tGPa ");
+  ASSERT_TRUE(amount);
+  EXPECT_EQ(amount->value, 30);
+  EXPECT_EQ(amount->quantity().value, 30e9);
+  EXPECT_EQ(amount->text(), "30 GPa");
+  ASSERT_TRUE(parse_amount("3"));
+  EXPECT_EQ(parse_amount("3")->text(), "3");
+  EXPECT_TRUE(parse_amount("3")->quantity().dimension.is_plain());
+  for (const char* none : {"", " ", "GPa", "30 GPA", "30GPa", "2 * 15 GPa", "30 GPa 2", "0,3 m"})
+    EXPECT_FALSE(parse_amount(none)) << none;
+}
+
 TEST(Units, in_an_expression_the_unit_ends_where_it_must) {
   EXPECT_EQ(find_leading_unit("mm)")->length, 2u);
   EXPECT_EQ(find_leading_unit("N/mm^3 + x")->length, 6u);

@@ -92,34 +92,20 @@ bool fits(const Dimension& dimension, const ParamInfo& info) {
   });
 }
 
-/// A number with its unit, as text, times a factor.
-struct Amount {
-  double value;
-  std::string unit;
-  std::string times(double factor, bool whole) const {
-    const double number = whole ? std::max(1., std::round(value * factor)) : value * factor;
-    return format_number(number) + (unit.empty() ? "" : " " + unit);
-  }
-};
-
-std::optional<Amount> amount_of(const std::string& text) {
-  const std::string_view plain = trim(text);
-  const std::size_t blank = plain.find_first_of(blanks);
-  const auto value = parse_number(plain.substr(0, blank));
-  const std::string unit(blank == std::string_view::npos ? "" : trim(plain.substr(blank)));
-  if (!value || *value == 0 || (!unit.empty() && !find_unit(unit))) return std::nullopt;
-  return Amount{*value, unit};
+std::string times(const Amount& amount, double factor, bool whole) {
+  const double value = amount.value * factor;
+  return Amount{whole ? std::max(1., std::round(value)) : value, amount.unit_name, amount.unit}.text();
 }
 
 /// Halves, doubles and so on, as far as the attribute allows.
 std::vector<std::string> steps(const Amount& amount, double factor, int count, const ParamBase& param) {
   const bool whole = param.type() == "integer";
-  const Unit unit = amount.unit.empty() ? Unit{} : *find_unit(amount.unit);
   std::vector<std::string> values;
   for (int k = 1; k <= count; ++k) {
-    const std::string value = amount.times(std::pow(factor, k), whole);
-    const bool allowed = !param.info().columns.empty() || param.info().range.holds(unit.to_si(amount_of(value)->value));
-    const bool is_new = value != amount.times(1, whole) && (values.empty() || values.back() != value);
+    const std::string value = times(amount, std::pow(factor, k), whole);
+    const bool allowed =
+        !param.info().columns.empty() || param.info().range.holds(parse_amount(value)->quantity().value);
+    const bool is_new = value != times(amount, 1, whole) && (values.empty() || values.back() != value);
     if (allowed && is_new) values.push_back(value);
   }
   return values;
@@ -134,9 +120,9 @@ std::optional<DeckKnob> knob_for(const RawParameter& parameter, const Declared& 
       if (choice != knob.now) knob.faster.push_back(choice);
     return knob;
   }
-  const auto amount = amount_of(parameter.text);
+  const auto amount = parse_amount(parameter.text);
   Complaints unheard;
-  const auto quantity = amount ? scope.quantity(parameter.name, {}, unheard) : std::nullopt;
+  const auto quantity = amount && amount->value != 0 ? scope.quantity(parameter.name, {}, unheard) : std::nullopt;
   if (!quantity || !fits(quantity->dimension, info)) return std::nullopt;
   const double faster = info.knob == Knob::larger_is_faster ? 2 : 0.5;
   knob.faster = steps(*amount, faster, 3, *declared.param);
