@@ -48,7 +48,7 @@ void DeckChecks::check(BatchRun& run, const std::vector<BatchRun>& all) {
   try {
     const Loaded loaded = load_scene(run.deck.request(), complaints);
     if (loaded.scene && !loaded.scene->studies.empty()) {
-      if (loaded.scene->studies.front()->is_list()) refuse_study(loaded, run.deck.path);
+      if (loaded.scene->studies.front()->is_of_batch()) refuse_study(loaded, run.deck.path);
       run.is_study = true;
     }
     if (loaded.deck) run.deck_sha256 = loaded.deck->sha256;

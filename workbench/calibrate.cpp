@@ -48,7 +48,7 @@ int calibrate(const CalibrateArguments& arguments) {
         loaded.deck->root->at,
         fmt::format("this deck has no <study>: it is a scene. Do: beadwork run {} --out FOLDER", arguments.deck.path));
   Study& study = *loaded.scene->studies.front();
-  if (study.is_list()) refuse_study(loaded, arguments.deck.path);
+  if (study.is_of_batch()) refuse_study(loaded, arguments.deck.path);
   Office office(arguments.out, *loaded.scene, study.tag());
   const bool quiet = arguments.quiet;
   const auto tell_all = [quiet](const std::string& line) {

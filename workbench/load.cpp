@@ -91,7 +91,7 @@ void refuse_study(const Loaded& loaded, const std::string& path) {
   const Study& study = *loaded.scene->studies.front();
   refuse(study.at(),
          fmt::format("this deck holds a study, which runs scenes of its own. Do: beadwork {} {} --out FOLDER",
-                     study.is_list() ? "batch" : "calibrate", shell_quoted(path)));
+                     study.is_of_batch() ? "batch" : "calibrate", shell_quoted(path)));
 }
 
 }  // namespace beadwork

@@ -262,11 +262,11 @@ void Assembly::check_study() {
       complaints_.error(plugin->at(), fmt::format("<{}> stands beside a study ({}): a deck with a study runs other "
                                                   "decks and has no scene of its own",
                                                   plugin->tag(), study.at().where()));
-  const bool are_lists = std::all_of(scene_.studies.begin(), scene_.studies.end(),
-                                     [&](const Study* each) { return each->tag() == study.tag() && each->is_list(); });
-  if (scene_.studies.size() > 1 && !are_lists)
-    complaints_.error(scene_.studies[1]->at(), fmt::format("a deck has one study, or sweeps only, and there is one at {} "
-                                                           "already",
+  const bool is_batch = std::all_of(scene_.studies.begin(), scene_.studies.end(),
+                                    [&](const Study* each) { return each->is_of_batch(); });
+  if (scene_.studies.size() > 1 && !is_batch)
+    complaints_.error(scene_.studies[1]->at(), fmt::format("a deck has one study, or sweeps and what is expected of "
+                                                           "them, and there is one at {} already",
                                                            study.at().where()));
   deck_.scope.complain_about_unused(*deck_.root, complaints_);
   if (complaints_.errors() == 0) resolve();

@@ -7,10 +7,11 @@
 #include "core/base/log.hpp"
 #include "core/plugin/curve.hpp"
 #include "core/plugin/plugin.hpp"
-#include "core/plugin/run_list.hpp"
 #include "core/plugin/runner.hpp"
 
 namespace beadwork {
+
+struct BatchPlan;
 
 /// What a study is lent, and where it leaves what it finds.
 struct StudyDesk {
@@ -26,15 +27,16 @@ struct StudyDesk {
   std::function<void(const std::string& json)> result;
 };
 
-/// Either learns from runs what to run next (`conduct`: a calibration), or is a list of runs (`runs`: a sweep).
+/// Either learns from runs what to run next (`conduct`: a calibration), or is a part of a batch, whose runs are known
+/// before (`add_to`: a sweep, what is expected of it).
 class Study : public Plugin {
  public:
   static constexpr Kind its_kind = Kind::study;
   Study() : Plugin(its_kind) {}
   virtual void conduct(const StudyDesk&) {}
-  /// Whether it is a list of runs, which `runs` then gives.
-  virtual bool is_list() const { return false; }
-  virtual RunList runs() const { return {}; }
+  /// Whether it is a part of a batch; several such stand in one deck.
+  virtual bool is_of_batch() const { return false; }
+  virtual void add_to(BatchPlan&) const {}
 };
 
 }  // namespace beadwork

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/plugin/batch_plan.hpp"
 #include "core/plugin/kinds.hpp"
 #include "plugins/study/sweep_values.hpp"
 
@@ -80,8 +81,8 @@ class Sweep final : public Study {
     check_names(complaints);
   }
 
-  bool is_list() const override { return true; }
-  RunList runs() const override {
+  bool is_of_batch() const override { return true; }
+  void add_to(BatchPlan& plan) const override {
     const sweeps::Block block = all_rows();
     RunList list{*name, at(), *decks, block.names, block.rows, {}, {}, {}};
     if (set.given())
@@ -89,7 +90,7 @@ class Sweep final : public Study {
     if (from.given())
       for (const auto& [parameter, sweep] : sweeps::clauses(*from)) list.from.emplace_back(parameter, sweep);
     if (after.given()) list.after = *after;
-    return list;
+    plan.lists.push_back(std::move(list));
   }
 
  private:
