@@ -10,6 +10,7 @@
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "core/loop/local_jobs.hpp"
+#include "workbench/batch_claims.hpp"
 #include "workbench/terminal.hpp"
 
 namespace beadwork {
@@ -65,8 +66,8 @@ bool names_sweeps(const Node& root) {
   });
 }
 
-/// The lists of a deck that holds a study made of lists of runs; nothing if it is no such deck.
-std::optional<std::vector<RunList>> lists_of_study(const BatchArguments& arguments) {
+/// What a deck says whose study is a batch; nothing if it is no such deck.
+std::optional<BatchPlan> plan_of_study(const BatchArguments& arguments) {
   if (arguments.decks.size() != 1) return std::nullopt;
   DeckArguments deck = arguments.deck;
   deck.path = arguments.decks.front();
@@ -76,13 +77,16 @@ std::optional<std::vector<RunList>> lists_of_study(const BatchArguments& argumen
   if (!read || !has_study(*read->root)) return std::nullopt;  // what is wrong with it is told as that of a run
   const Loaded loaded = load_scene(request, complaints);
   if (!loaded.scene && names_sweeps(*read->root)) complaints.throw_if_any();
-  if (!loaded.scene || !loaded.scene->studies.front()->is_list()) return std::nullopt;
+  if (!loaded.scene || !loaded.scene->studies.front()->is_of_batch()) return std::nullopt;
   if (!arguments.variations.empty())
     refuse(loaded.scene->studies.front()->at(),
            "this deck says itself what varies, and takes no --vary; --set gives its parameters other values");
-  std::vector<RunList> lists;
-  for (const Study* study : loaded.scene->studies) lists.push_back(study->runs());
-  return lists;
+  BatchPlan plan;
+  for (const Study* study : loaded.scene->studies) study->add_to(plan);
+  if (plan.lists.empty())
+    refuse(loaded.scene->studies.front()->at(),
+           "this study expects something of runs and has none: it wants a <sweep>");
+  return plan;
 }
 
 void refuse_too_many(const std::vector<RunList>& lists, int most) {
@@ -93,23 +97,30 @@ void refuse_too_many(const std::vector<RunList>& lists, int most) {
         fmt::format("error: these are {} runs, more than {}; if they are meant: --most-runs {}", runs, most, runs));
 }
 
-std::vector<BatchRun> all_runs(const BatchArguments& arguments) {
+struct Batch {
+  BatchPlan plan;
+  std::vector<BatchRun> runs;
+};
+
+Batch batch_of(const BatchArguments& arguments) {
   DeckArguments common = arguments.deck;
-  auto lists = lists_of_study(arguments);
-  if (lists) {
+  auto plan = plan_of_study(arguments);
+  if (plan) {
     common.settings.clear();  // they were for the study
     common.files.clear();
   } else {
     std::vector<Variation> variations;
     for (const std::string& text : arguments.variations) variations.push_back(variation_of(text));
-    lists = {list_of(arguments.decks, variations)};
+    plan = BatchPlan{{list_of(arguments.decks, variations)}, {}, {}};
   }
-  refuse_too_many(*lists, arguments.most_runs);
-  return runs_of(*lists, common, arguments.out);
+  refuse_too_many(plan->lists, arguments.most_runs);
+  std::vector<BatchRun> runs = runs_of(plan->lists, common, arguments.out);
+  refuse_claims_of_none(*plan, runs);
+  return {std::move(*plan), std::move(runs)};
 }
 
 int batch(const BatchArguments& arguments) {
-  std::vector<BatchRun> runs = all_runs(arguments);
+  auto [plan, runs] = batch_of(arguments);
   DeckChecks checks;
   checks.check_all(runs);
   const std::size_t refused = checks.refused();
@@ -136,6 +147,7 @@ int batch(const BatchArguments& arguments) {
     return worst(runs);
   }
   run_here(runs, shares.jobs, folder);
+  write_claims(plan, runs, folder);
   if (worst(runs) == static_cast<int>(ExitCode::interrupted))
     say("interrupted; go on with: {}\n", command_line(arguments.words));
   say("{}\n", (folder.root() / "batch.csv").string());

@@ -86,6 +86,8 @@ bool is_done(BatchRun& run);
 void note_row(BatchRun& run);
 /// The runs and what came of them as it was noted last.
 ResultTable batch_table(const std::vector<BatchRun>& runs);
+/// Whether a parameter only says which draw it is: "seed", or one whose name ends in "-seed".
+bool is_seed(const std::string& parameter);
 /// Means and scatter (standard deviation of one run) over seeds: a row for each group of runs that differ in their seeds
 /// only, and are done. Without rows where no group has two.
 ResultTable batch_means(const std::vector<BatchRun>& runs);

@@ -12,8 +12,6 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-bool is_seed(const std::string& name) { return name == "seed" || name.ends_with("-seed"); }
-
 struct Group {
   std::string list;  ///< of runs that stand in a folder of their own
   Values values;     ///< of all but seeds
@@ -85,6 +83,8 @@ std::vector<std::string> row_of(const Group& group, const std::vector<std::strin
 }
 
 }  // namespace
+
+bool is_seed(const std::string& parameter) { return parameter == "seed" || parameter.ends_with("-seed"); }
 
 ResultTable batch_means(const std::vector<BatchRun>& runs) {
   const std::vector<Group> groups = groups_of(runs);

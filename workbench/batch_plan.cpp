@@ -81,7 +81,8 @@ class Lists {
  public:
   explicit Lists(const std::vector<RunList>& lists) : lists_(lists) {
     for (const RunList& list : lists)
-      if (list.name.starts_with("batch.") || list.name == "means.csv" || list.name == "report.html")
+      if (list.name.starts_with("batch.") || list.name == "means.csv" || list.name == "claims.csv" ||
+          list.name == "figures.json" || list.name == "report.html")
         refuse(list.at, fmt::format("'{}' is the name of a file of the batch: call the sweep otherwise", list.name));
     for (std::size_t k = 0; k < lists.size(); ++k)
       if (!index_.emplace(lists[k].name, k).second)

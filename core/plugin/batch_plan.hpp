@@ -8,8 +8,8 @@ namespace beadwork {
 
 struct BatchPlan {
   std::vector<RunList> lists;
-  std::vector<Claim> claims;
-  std::vector<Figure> figures;
+  std::vector<ClaimPlan> claims;
+  std::vector<FigurePlan> figures;
 };
 
 }  // namespace beadwork

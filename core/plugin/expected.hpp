@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/deck/deck.hpp"
 #include "core/plugin/reading.hpp"
 
 namespace beadwork {
@@ -15,15 +16,17 @@ struct ChosenRuns {
     std::vector<std::string> values;
   };
   std::string sweep;
-  std::vector<Wanted> where;
+  std::vector<Wanted> where;  ///< empty: all of them
+  Location at;
 };
 
 /// A number that is read from each of some runs, beside what was printed and where it should lie.
-struct Claim {
+struct ClaimPlan {
   std::string name, says, source;
   ChosenRuns of;
-  std::string curve;
+  std::string curve;  ///< empty: `column` of the batch's table
   Reading reading;
+  std::string column;                ///< without its unit
   std::optional<Reading> over;       ///< divides it, read from the same curve of the same run
   std::optional<ChosenRuns> beside;  ///< divides it, the same read from those of these runs that have the same seeds
   std::optional<Amount> times;       ///< a factor
@@ -32,11 +35,10 @@ struct Claim {
 };
 
 /// Curves of some runs laid over one another, or pictures of one.
-struct Figure {
+struct FigurePlan {
   std::string name, says;
   ChosenRuns of;
-  std::string curve;            ///< empty: pictures
-  std::vector<std::string> at;  ///< of pictures: values of what the run's curves are drawn against; empty: all
+  std::string curve;  ///< empty: pictures
 };
 
 }  // namespace beadwork

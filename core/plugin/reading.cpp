@@ -50,10 +50,9 @@ std::optional<Reading> parse_threshold(Reading::How how, const Cut& columns, con
   auto sides = cut(columns.behind, word);
   if (!sides) return std::nullopt;
   Reading reading{how, columns.before, sides->before, {}, {}, false, {}};
-  if (const auto share = cut(sides->behind + " ", " of its largest"); sides->behind.ends_with(" of its largest")) {
-    reading.of_largest = true;
-    sides->behind = std::string(trim(sides->behind.substr(0, sides->behind.rfind(" of its largest"))));
-  }
+  constexpr std::string_view share = " of its largest";
+  reading.of_largest = sides->behind.ends_with(share);
+  if (reading.of_largest) sides->behind.resize(sides->behind.size() - share.size());
   const auto threshold = parse_amount(sides->behind);
   if (!threshold || (reading.of_largest && !threshold->unit.dimension.is_plain())) return std::nullopt;
   reading.from = *threshold;

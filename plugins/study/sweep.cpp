@@ -45,8 +45,8 @@ class Sweep final : public Study {
   Param<std::vector<std::string>> seeds{
       this,
       {.name = "seeds",
-       .doc = "Values of the decks' parameter 'seed'. Means and scatter are taken over it, and over parameters whose "
-              "names end in '-seed'",
+       .doc = "Values of the decks' parameter 'seed': \"1 2 5\", or \"1 to 5\" for all between. Means and scatter are "
+              "taken over it, and over parameters whose names end in '-seed'",
        .optional = true}};
   Param<std::string> set{this,
                          {.name = "set",
@@ -70,7 +70,7 @@ class Sweep final : public Study {
     if (decks->empty()) complaints.error(decks.at(), "'decks' names no deck");
     for (const ParamBase* text : {static_cast<const ParamBase*>(&grid), static_cast<const ParamBase*>(&together),
                                   static_cast<const ParamBase*>(&sample), static_cast<const ParamBase*>(&set),
-                                  static_cast<const ParamBase*>(&from)})
+                                  static_cast<const ParamBase*>(&from), static_cast<const ParamBase*>(&seeds)})
       if (text->given()) understand(*text, complaints);
     if (complaints.errors() > 0) return;
     const double runs = count() * static_cast<double>(decks->size());
@@ -103,6 +103,7 @@ class Sweep final : public Study {
       if (&text == &sample) ranges();
       if (&text == &set) sweeps::clauses(*set);
       if (&text == &from) sweeps::clauses(*from);
+      if (&text == &seeds) sweeps::seeds_of(*seeds);
     } catch (const sweeps::Wrong& wrong) {
       complaints.error(text.at(), fmt::format("'{}' {}", text.info().name, wrong.what()));
     }
@@ -167,7 +168,7 @@ class Sweep final : public Study {
     for (const sweeps::Block& block : block_of_grid()) runs *= static_cast<double>(block.rows.size());
     if (together.given()) runs *= static_cast<double>(block_together().rows.size());
     if (sample.given()) runs *= static_cast<double>(*points);
-    if (seeds.given()) runs *= static_cast<double>(seeds->size());
+    if (seeds.given()) runs *= static_cast<double>(sweeps::seeds_of(*seeds).size());
     return runs;
   }
 
@@ -178,7 +179,7 @@ class Sweep final : public Study {
     if (sample.given()) all = times(all, block_of_sample());
     if (seeds.given()) {
       sweeps::Block block{{"seed"}, {}};
-      for (const std::string& seed : *seeds) block.rows.push_back({seed});
+      for (const std::string& seed : sweeps::seeds_of(*seeds)) block.rows.push_back({seed});
       all = times(all, block);
     }
     return all;

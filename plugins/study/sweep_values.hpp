@@ -115,6 +115,18 @@ inline std::vector<std::string> values_of(const Clause& clause) {
   return values;
 }
 
+/// "1 2 5" as it is, "1 to 5" as 1 2 3 4 5.
+inline std::vector<std::string> seeds_of(const std::vector<std::string>& words) {
+  if (words.size() != 3 || words[1] != "to") return words;
+  const auto first = parse_number(words[0]), last = parse_number(words[2]);
+  const bool are_whole = first && last && *first == std::floor(*first) && *last == std::floor(*last) && *first >= 0;
+  if (!are_whole || *last < *first || *last - *first > 1e6)
+    throw Wrong("wants two whole numbers around \"to\", the smaller one first, got \"" + join(words, " ") + "\"");
+  std::vector<std::string> seeds;
+  for (double seed = *first; seed <= *last; ++seed) seeds.push_back(format_number(seed));
+  return seeds;
+}
+
 /// Points of the unit cube, one row each: Sobol's sequence, from its first point on (Boost, directions of Joe and Kuo).
 inline std::vector<std::vector<double>> sobol(std::size_t points, std::size_t dimensions) {
   boost::random::sobol sequence(dimensions);

@@ -24,8 +24,19 @@ foreach(deck IN LISTS decks)
 endforeach()
 
 # Killed at random, again and again. More rounds than here: kills.py BEADWORK DECK 80
-foreach(deck breaks stages)
-  add_test(NAME cases/kills/${deck} COMMAND /usr/bin/python3 ${here}/kills/kills.py $<TARGET_FILE:beadwork_cli> ${here}/kills/${deck}.xml 6)
+foreach(deck breaks stages static calibration batch)
+  set(verb run)
+  if(deck STREQUAL batch)
+    set(verb batch)
+  elseif(deck STREQUAL calibration)
+    set(verb calibrate)
+  endif()
+  set(rounds 6)
+  if(NOT verb STREQUAL run)
+    set(rounds 2)
+  endif()
+  add_test(NAME cases/kills/${deck}
+           COMMAND /usr/bin/python3 ${here}/kills/kills.py $<TARGET_FILE:beadwork_cli> ${here}/kills/${deck}.xml ${rounds} --verb ${verb})
   set_tests_properties(cases/kills/${deck} PROPERTIES LABELS cases TIMEOUT 600 ENVIRONMENT "BEADWORK_PLUGINS=")
 endforeach()
 

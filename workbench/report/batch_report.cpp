@@ -6,7 +6,9 @@
 #include "core/base/text.hpp"
 #include "core/io/file.hpp"
 #include "core/io/manifest.hpp"
+#include "workbench/report/expected.hpp"
 #include "workbench/report/overlay.hpp"
+#include "workbench/report/quoted_rows.hpp"
 #include "workbench/report/report.hpp"
 #include "workbench/report/sections.hpp"
 #include "workbench/report/text.hpp"
@@ -17,33 +19,6 @@ namespace report {
 namespace {
 
 namespace fs = std::filesystem;
-using Row = std::vector<std::string>;
-
-constexpr std::uintmax_t longest_table = std::uintmax_t{1} << 30;
-
-/// Rows of a CSV file whose fields may be quoted, with commas and line breaks in them.
-std::vector<Row> rows_of(const std::string& text) {
-  std::vector<Row> rows;
-  Row row;
-  std::string field;
-  bool quoted = false;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const char c = text[k];
-    if (quoted && c == '"' && k + 1 < text.size() && text[k + 1] == '"') {
-      field += text[++k];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (!quoted && (c == ',' || c == '\n')) {
-      row.push_back(std::move(field));
-      field.clear();
-      if (c == '\n') rows.push_back(std::move(row)), row.clear();
-    } else {
-      field += c;
-    }
-  }
-  return rows;
-}
-
 /// The table, and where its own columns stand: those between "run" and "status" are parameters.
 struct Batch {
   Row names;
@@ -53,7 +28,7 @@ struct Batch {
 
 Batch batch_in(const fs::path& folder) {
   Batch batch;
-  std::vector<Row> rows = rows_of(read_text(folder / "batch.csv", longest_table));
+  std::vector<Row> rows = quoted_rows(folder / "batch.csv");
   const auto refuse = [&] {
     throw MachineFailure("'" + (folder / "batch.csv").string() + "' is not the table of a batch");
   };
@@ -146,7 +121,7 @@ std::string means(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_regular_file(folder / "means.csv", error)) return "";
   std::string head, body;
-  const std::vector<Row> rows = rows_of(read_text(folder / "means.csv", longest_table));
+  const std::vector<Row> rows = quoted_rows(folder / "means.csv");
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::string line;
     for (const std::string& field : rows[r]) line += r ? cell(field) : "<th>" + escaped(field) + "</th>";
@@ -167,7 +142,7 @@ std::string batch_page(const fs::path& folder) {
   const std::string title = escaped(name_of_folder(folder));
   return page_with(title + " – Beadwork",
                    "<h1>" + title + "</h1><p>" + plural(static_cast<std::int64_t>(batch.runs.size()), "run") + "</p>",
-                   notes + charts + means(folder) + table(batch, folder));
+                   notes + claims_of(folder) + figures_of(folder) + charts + means(folder) + table(batch, folder));
 }
 
 }  // namespace

@@ -28,6 +28,11 @@ std::string Overlay::charts(const std::string& title) const {
   return charts.empty() ? "" : section(title, "<div class=\"charts\">" + charts + "</div>");
 }
 
+std::string Overlay::chart(const std::string& name) const {
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? "" : overlaid(found->second);
+}
+
 std::string Overlay::notes() const {
   return notes_.empty() ? "" : "<section class=\"notes\"><ul>" + notes_ + "</ul></section>\n";
 }

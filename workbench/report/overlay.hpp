@@ -19,6 +19,8 @@ class Overlay {
   void note(const std::string& sentence);
   /// A section of this title, nothing where there are no curves.
   std::string charts(const std::string& title = "Curves") const;
+  /// The chart of one curve; nothing where no run has it.
+  std::string chart(const std::string& name) const;
   /// Section of what there is to say of the runs, nothing where there is nothing.
   std::string notes() const;
 

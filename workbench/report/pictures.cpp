@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 #include "workbench/report/sections.hpp"
 #include "workbench/report/specimen.hpp"
@@ -144,21 +145,35 @@ std::string to_be_turned(Run& run, const Stage& stage, const std::vector<record:
 
 }  // namespace
 
-std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, const std::string& wanted) {
-  if (!run.recorded) return "";
+namespace {
+
+/// The frames that can be drawn, and where from.
+struct Scenery {
+  std::vector<record::Frame> frames;
+  Stage stage;
+};
+
+std::optional<Scenery> scenery_of(Run& run, const std::vector<record::FrameHead>& pictured, const std::string& wanted) {
+  if (!run.recorded) return std::nullopt;
   if (pictured.empty()) {
     run.notes.emplace_back("run.h5 holds no frames, so there are no pictures of the specimen.");
-    return "";
+    return std::nullopt;
   }
-  std::vector<record::Frame> frames = read_frames(run, pictured);
+  Scenery scenery{read_frames(run, pictured), {}};
+  std::vector<record::Frame>& frames = scenery.frames;
   const auto said = run.notes;  // of the first frame all has been said if it is among them
   std::vector<record::Frame> first = read_frames(run, {run.recorded->frames().front()});
   if (pictured.front().name == run.recorded->frames().front().name) run.notes = said;
   std::erase_if(frames, [](const record::Frame& f) { return f.position.empty(); });
-  if (frames.empty()) return "";
+  if (frames.empty()) return std::nullopt;
   const record::Frame rest = first.empty() || first.front().position.empty() ? frames.front() : first.front();
   for (record::Frame& frame : frames) complete_displacement(frame, rest);
-  const Stage stage = set_up(rest, frames, sets_of(run), wanted.empty() ? wanted_view(frames) : wanted);
+  scenery.stage = set_up(rest, frames, sets_of(run), wanted.empty() ? wanted_view(frames) : wanted);
+  return scenery;
+}
+
+std::string stills(const Run& run, const Scenery& scenery, const std::vector<record::FrameHead>& pictured) {
+  const auto& [frames, stage] = scenery;
   const bool bonds = std::any_of(frames.begin(), frames.end(), [](const record::Frame& f) { return !f.bonds.empty(); });
   const double shape = stage.views.front().camera.width / stage.views.front().camera.height;
   std::string body =
@@ -168,7 +183,22 @@ std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, c
                                    [&](const record::FrameHead& h) { return h.name == frame.head.name; });
     body += figure_of(run, stage, frame, static_cast<std::size_t>(head - pictured.begin()) + 1);
   }
-  return section("The specimen", body + "</div>") + to_be_turned(run, stage, frames) + field_pictures(stage, frames);
+  return body + "</div>";
+}
+
+}  // namespace
+
+std::string still_pictures(Run& run, const std::vector<record::FrameHead>& pictured) {
+  const auto scenery = scenery_of(run, pictured, "");
+  return scenery ? stills(run, *scenery, pictured) : "";
+}
+
+std::string pictures(Run& run, const std::vector<record::FrameHead>& pictured, const std::string& wanted) {
+  const auto scenery = scenery_of(run, pictured, wanted);
+  if (!scenery) return "";
+  const auto& [frames, stage] = *scenery;
+  return section("The specimen", stills(run, *scenery, pictured)) + to_be_turned(run, stage, frames) +
+         field_pictures(stage, frames);
 }
 
 }  // namespace beadwork::report

@@ -75,6 +75,7 @@ Results results_of(const fs::path& folder) {
   add_numbers(part("breaks"), "breaks", "", results);
   add_numbers(part("energy"), "energy", " [J]", results);
   add_numbers(part("quality"), "quality", "", results);
+  add_numbers(part("result"), "result", "", results);
   return results;
 }
 

@@ -28,6 +28,8 @@ std::string overlaid(const std::vector<std::pair<std::string, const Curve*>>& of
 /// Pictures of the frames `pictured`, seen along the axis `wanted` (x, y, z; empty: as the frames say, or as shows
 /// most); what cannot be read is added to the run's notes.
 std::string pictures(Run&, const std::vector<record::FrameHead>& pictured, const std::string& wanted);
+/// The same without the specimen that one can turn, and without fields and heading.
+std::string still_pictures(Run&, const std::vector<record::FrameHead>& pictured);
 struct Stage;
 /// What the frames recorded besides places, in colours with their bar.
 std::string field_pictures(const Stage&, const std::vector<record::Frame>& frames);

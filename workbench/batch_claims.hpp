@@ -1,0 +1,21 @@
+#pragma once
+// What a study expects of its runs, held beside what they have found: claims.csv and figures.json of a batch.
+
+#include "core/plugin/batch_plan.hpp"
+#include "workbench/batch.hpp"
+
+namespace beadwork {
+
+/// Places of the chosen runs among all.
+std::vector<std::size_t> runs_chosen(const ChosenRuns& chosen, const std::vector<BatchRun>& runs);
+
+/// DeckFailure if a claim or a figure speaks of a sweep, or of values, that no run has.
+void refuse_claims_of_none(const BatchPlan& plan, const std::vector<BatchRun>& runs);
+
+/// Each claim, what was printed, its band, mean and scatter over the runs that are done, and whether it holds.
+ResultTable claims_table(const std::vector<ClaimPlan>& claims, const std::vector<BatchRun>& runs);
+
+/// claims.csv and figures.json, where the study has any; a line of what came of the claims.
+void write_claims(const BatchPlan& plan, const std::vector<BatchRun>& runs, OwnFolder& folder);
+
+}  // namespace beadwork
