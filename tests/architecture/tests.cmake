@@ -16,6 +16,7 @@ architecture_test(skeletons /usr/bin/python3 ${here}/skeletons.py $<TARGET_FILE:
 architecture_test(batch bash ${here}/batch.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
 architecture_test(claims bash ${here}/claims.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
 architecture_test(plan bash ${here}/plan.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
+architecture_test(only_what_is_asked /usr/bin/python3 ${here}/only_what_is_asked.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
 architecture_test(plugins_are_used /usr/bin/python3 ${here}/plugins_are_used.py ${PROJECT_SOURCE_DIR})
 architecture_test(docs_up_to_date bash ${here}/docs_up_to_date.sh ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
 if(XMLLINT)

@@ -40,6 +40,9 @@ foreach(deck breaks stages static calibration batch)
   set_tests_properties(cases/kills/${deck} PROPERTIES LABELS cases TIMEOUT 600 ENVIRONMENT "BEADWORK_PLUGINS=")
 endforeach()
 
+add_test(NAME cases/paper COMMAND /usr/bin/python3 ${here}/paper_study.py ${PROJECT_SOURCE_DIR} $<TARGET_FILE:beadwork_cli>)
+set_tests_properties(cases/paper PROPERTIES LABELS cases TIMEOUT 3600 PROCESSORS 2 ENVIRONMENT "BEADWORK_PLUGINS=")
+
 # What a run leaves opens in ParaView itself, where that is installed.
 find_program(PVPYTHON pvpython)
 if(PVPYTHON)
