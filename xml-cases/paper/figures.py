@@ -2,6 +2,7 @@
 """Figures of the single-fibre and multi-fibre runs, mean and scatter over seeds, beside those of the paper.
 
 Usage: figures.py SOURCE... [--rows FILE]      Needs h5py and numpy.
+       figures.py --choices FOLDER             of a study of one specimen, such as single-fibre/choices.xml: a line for each run
 
 A SOURCE is the folder of a batch (SOURCE/deck=fine-rdef-2,seed=1/...) or a table of rows that --rows has written, so that runs of
 several machines or days stand in one table; of a deck and a seed that are in two, the later one counts."""
@@ -218,11 +219,31 @@ def pores(decks):
               f"| {spread([row['by chance [1]'] for row in rows])} |")
 
 
+def choices(folder):
+    print("| run | modulus before the interface yields [GPa] | largest force [mN], at strain | first damage, first break | near the mid-plane | left-right | force at .02, .03 [mN] "
+          "| E_k/U before, while it cracks | steps | loop [s] |")
+    print("|---|" + "---|" * 9)
+    for path in sorted(folder.glob("*/*/summary.json")):
+        if json.loads(path.read_text())["status"] != "done":
+            continue
+        run = Run(path.parent)
+        row = run.row()
+        print(f"| {path.parent.parent.name}: {path.parent.name} | {row['tangent [Pa]'] * 1e-9:.3g} | {row['largest force [N]'] * 1e3:.4g}, {row['its strain [1]']:.3g} "
+              f"| {row['first damage [1]']:.2g}, {row['first break [1]']:.2g} | {row['near the plane [1]']:.2f} | {100 * row['left-right [1]']:.2g} % "
+              f"| {run.force_at(0.02) * 1e3:.4g}, {run.force_at(0.0299) * 1e3:.4g} "
+              f"| {row['kinetic over stored [1]']:.1g}, {row['kinetic over stored, cracking [1]']:.1g} | {row['steps [1]']} | {row['loop [s]']:.0f} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sources", nargs="+")
+    parser.add_argument("sources", nargs="*")
+    parser.add_argument("--choices", type=pathlib.Path, help="folder of the study of one specimen")
     parser.add_argument("--rows", help="CSV file for the figures of each run")
     arguments = parser.parse_args()
+    if arguments.choices:
+        return choices(arguments.choices)
+    if not arguments.sources:
+        parser.error("a SOURCE is wanted")
     found = {}
     for source in arguments.sources:
         for row in rows_of(source):
