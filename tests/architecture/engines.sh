@@ -97,7 +97,7 @@ cat >"$work/study.xml" <<'END'
 </scene>
 END
 # It runs for seconds; its curve has few rows.
-sed 's|until="2000"|until="${n}"|; s|every="20"|every="100000"|g; s|every="1000"|at="end"|; s|<parameter name="v"|<parameter name="n" value="4000000"/>&|' \
+sed 's|until="2000"|until="${n}"|; s|every="20"|every="100000"|g; s|every="1000"|at="end"|; s|<parameter name="v"|<parameter name="n" value="3000000"/>&|' \
   "$source/xml-cases/two-elements/quick.xml" >"$work/long.xml"
 long=("$work/long.xml" --vary 'E=50 GPa,100 GPa' --jobs 2 --threads 1)
 

@@ -39,10 +39,10 @@ mkdir "$work/bin"
 printf '#!/bin/bash\n%q "$@"\nkill -KILL $PPID\n' "$(command -v sbatch)" >"$work/bin/sbatch"
 chmod +x "$work/bin/sbatch"
 count=$(submitted)
-PATH="$work/bin:$PATH" follow "${long[@]}" --set n=2000000 --out "$work/unnoted"
+PATH="$work/bin:$PATH" follow "${long[@]}" --out "$work/unnoted"
 follower_ends 137
 ! grep -q ^number "$work/unnoted/batch.jobs" || fail "it has noted the number"
-expect 0 batch "${long[@]}" --set n=2000000 --out "$work/unnoted"
+expect 0 batch "${long[@]}" --out "$work/unnoted"
 says "2 of them are in Slurm's queue already"
 [ "$(submitted)" = $((count + 2)) ] || fail "submitted twice: $(submitted) jobs, $count before"
 

@@ -75,16 +75,15 @@ std::string SlurmJobs::submit_some(Piece piece, const std::vector<std::string>& 
   for (;;) {
     std::string refusal;
     const std::string number = submit_piece(piece, behind, refusal);
-    if (!number.empty()) return number;
-    is_full_ = true;
-    if (piece.jobs.size() > 1) {
+    if (number.empty()) is_full_ = true;
+    if (number.empty() && piece.jobs.size() > 1) {
       piece.jobs.resize(piece.jobs.size() / 2);
       continue;
     }
-    if (with_slurm() == 0) throw MachineFailure("error: Slurm takes no job: " + refusal);
-    if (!full_was_told_) options_.say(fmt::format("Slurm takes no more jobs now; the rest waits ({})", refusal));
-    full_was_told_ = true;
-    return "";
+    if (number.empty() && with_slurm() == 0) throw MachineFailure("error: Slurm takes no job: " + refusal);
+    if (is_full_ && !full_was_told_) options_.say("Slurm takes no more jobs now; the rest is submitted as others end");
+    full_was_told_ = full_was_told_ || is_full_;
+    return number;
   }
 }
 
