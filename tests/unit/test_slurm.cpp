@@ -11,8 +11,9 @@
 
 using namespace beadwork;
 using namespace beadwork::slurm;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using beadwork::testing::Scratch;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 namespace {
 

@@ -151,7 +151,7 @@ void SlurmJobs::settle(std::size_t job, const std::string& state, const std::str
     own.may_begin = turn == Turn::now;
     if (turn == Turn::never) return leave(own);
   }
-  const bool by_itself = state == "COMPLETED" || state == "FAILED";
+  const bool by_itself = state == "COMPLETED" || state == "FAILED" || state.empty();
   JobEnd ending = has_note ? *note->end : JobEnd{static_cast<int>(ExitCode::machine), told(state, reason)};
   if (has_note && !by_itself) ending.by = told(state, reason);
   end(job, std::move(ending));
