@@ -54,8 +54,8 @@ class Notes final : public JobEvents {
     told_ = share;
     write({share, {}});
   }
-  /// Interrupted where nothing has ended.
-  int code() const { return end_.code < 0 ? static_cast<int>(ExitCode::interrupted) : end_.code; }
+  bool has_ended() const { return end_.code >= 0; }
+  int code() const { return end_.code; }
 
  private:
   // A disk that takes no note may still take the run.
@@ -130,6 +130,7 @@ int job(const JobArguments& arguments) {
     return end->code;
   }
   LocalJobs(1, Voice::heard, &interrupted).run({{run.name, run.folder, command_of(run)}}, notes);
+  if (!notes.has_ended()) notes.note_end({static_cast<int>(ExitCode::interrupted), "interrupted before it began"});
   return notes.code();
 }
 

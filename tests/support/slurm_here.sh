@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # A Slurm of one node in a folder, for tests: without systemd, beside any other that there may be. To be sourced.
 #   start_slurm FOLDER MAX_ARRAY_SIZE    sets SLURM_CONF; returns 1 and says why where none can be
 #   stop_slurm                           ends its jobs and its daemons

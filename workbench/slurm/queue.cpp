@@ -48,10 +48,10 @@ MachineFailure no_slurm(const char* program, const Answer& answer) {
 
 /// What the batch itself tells sbatch, or what would not submit a script.
 constexpr std::array own_options{
-    "array",     "comment", "cpus-per-task", "dependency", "error",   "help", "input", "output", "kill-on-invalid-dep",
-    "parsable",  "quiet",   "test-only",     "usage",      "version", "wait", "wrap",  "batch",  "ignore-pbs",
-    "no-requeue"};
-constexpr std::string_view own_letters = "acdehioQVW";
+    "array",      "comment", "cpus-per-task", "dependency", "error",   "help", "input", "output", "kill-on-invalid-dep",
+    "parsable",   "quiet",   "test-only",     "usage",      "version", "wait", "wrap",  "batch",  "ignore-pbs",
+    "no-requeue", "clusters"};
+constexpr std::string_view own_letters = "acdehioMQVW";
 
 bool is_own(const std::string& word) {
   if (!word.starts_with("--")) return own_letters.find(word[1]) != std::string_view::npos;

@@ -66,24 +66,28 @@ void SlurmJobs::take_up() {
   if (!there) throw MachineFailure("error: Slurm does not tell what is in its queue; give the same command again");
   std::map<std::string, std::size_t> names;
   for (std::size_t k = 0; k < jobs_->size(); ++k) names[(*jobs_)[k].name] = k;
-  for (const Entry& entry : ledger_.entries()) take_up(entry, *there, names);
-  if (with_slurm() > 0)
-    options_.say(fmt::format("{} of them are in Slurm's queue already", with_slurm()));
-  else
-    ledger_.clear();
+  bool any = false;
+  for (const Entry& entry : ledger_.entries()) any = take_up(entry, *there, names) || any;
+  if (!any) ledger_.clear();
+  if (with_slurm() > 0) options_.say(fmt::format("{} of them are in Slurm's queue already", with_slurm()));
 }
 
-void SlurmJobs::take_up(const Entry& entry, const std::map<Place, Seen>& queue,
+/// Whether any of it is in the queue, be it of these jobs or of others that were submitted from here.
+bool SlurmJobs::take_up(const Entry& entry, const std::map<Place, Seen>& queue,
                         const std::map<std::string, std::size_t>& names) {
+  bool any = false;
   for (std::size_t task = 0; task < entry.jobs.size(); ++task) {
     const auto seen = queue.find({entry.word, task});
+    if (seen == queue.end() || seen->second.has_ended()) continue;
+    any = true;
     const auto known = names.find(entry.jobs[task]);
-    if (seen == queue.end() || seen->second.has_ended() || known == names.end()) continue;
+    if (known == names.end()) continue;
     Own& own = own_[known->second];
     own.at = At::queued;
     own.place = {entry.word, task};
     own.array = seen->second.array;
   }
+  return any;
 }
 
 void SlurmJobs::look() {
@@ -100,8 +104,14 @@ void SlurmJobs::look() {
 
 void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
   Own& own = own_[job];
-  const auto note = read_note(file_of(own, "note"));
   const auto found = queue.find(own.place);
+  if (found != queue.end() && found->second.is_waiting()) {
+    own.share = 0;  // perhaps once more
+    own.began = false;
+    note_held(job, found->second);
+    return;
+  }
+  const auto note = read_note(file_of(own, "note"));
   if (note && note->end && note->end->code == 0) {
     note_begun(job, note);
     end(job, *note->end);
@@ -111,10 +121,6 @@ void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
     settle(job, found->second.state, found->second.reason, note);
   } else if (found->second.is_running()) {
     note_begun(job, note);
-  } else if (found->second.is_waiting()) {
-    own.share = 0;  // perhaps once more
-    own.began = false;
-    note_held(job, found->second);
   }
 }
 

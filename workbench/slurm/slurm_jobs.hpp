@@ -64,7 +64,7 @@ class SlurmJobs final : public JobDriver {
   std::filesystem::path file_of(const Own& own, const char* ending) const;
 
   void take_up();
-  void take_up(const Entry& entry, const std::map<Place, Seen>& queue, const std::map<std::string, std::size_t>& names);
+  bool take_up(const Entry& entry, const std::map<Place, Seen>& queue, const std::map<std::string, std::size_t>& names);
 
   void submit_what_can();
   std::vector<Wanted> wanted(bool& dropped);
