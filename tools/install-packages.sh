@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that Beadwork needs, those that are missing only.
+# Installs the Debian packages that Beadwork needs, or those that are named, those that are missing only.
 set -euo pipefail
 
 packages=(
@@ -10,6 +10,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
   libxml2-utils python3-h5py python3-meshio
 )
+[ $# -eq 0 ] || packages=("$@")
 
 missing=()
 for package in "${packages[@]}"; do

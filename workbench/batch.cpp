@@ -11,6 +11,8 @@
 #include "core/io/file.hpp"
 #include "core/loop/local_jobs.hpp"
 #include "workbench/batch_claims.hpp"
+#include "workbench/signals.hpp"
+#include "workbench/slurm/queue.hpp"
 #include "workbench/terminal.hpp"
 
 namespace beadwork {
@@ -24,34 +26,17 @@ struct BatchArguments {
   std::vector<std::string> decks;
   std::string out, engine = "local";
   std::vector<std::string> variations;
+  std::vector<std::string> sbatch;
   Words words;
   int jobs = 0, threads = 0, most_runs = 10000;
-  bool keep_going = false;
+  bool keep_going = false, no_wait = false;
+  bool is_slurm() const { return engine == "slurm"; }
 };
 
 Shares shares_of(const BatchArguments& arguments, std::size_t runs) {
   const Shares wanted{arguments.jobs, arguments.threads};
-  if (arguments.engine == "slurm") return {wanted.jobs, std::max(1, wanted.threads)};  // processors of other machines
+  if (arguments.is_slurm()) return {wanted.jobs, std::max(1, wanted.threads)};  // processors of other machines
   return wanted.among(runs);
-}
-
-std::vector<std::string> options_of(const BatchRun& run, int threads, const Words& words) {
-  std::vector<std::string> options{fs::absolute(run.deck.path).string(),
-                                   "--quiet",
-                                   "--label",
-                                   run.name,
-                                   "--batch",
-                                   command_line(words),
-                                   "--out",
-                                   run.folder.string(),
-                                   "--threads",
-                                   std::to_string(threads)};
-  for (const Override& each : run.deck.request().overrides)
-    options.insert(options.end(), {"--set", each.name + "=" + each.value});
-  if (run.deck.no_plugins) options.emplace_back("--no-plugins");
-  for (const std::string& library : run.deck.libraries)
-    options.insert(options.end(), {"--plugins", fs::absolute(library).string()});
-  return options;
 }
 
 bool has_study(const Node& root) {
@@ -119,7 +104,16 @@ Batch batch_of(const BatchArguments& arguments) {
   return {std::move(*plan), std::move(runs)};
 }
 
+void attend_here(std::vector<BatchRun>& runs, OwnFolder& folder, int at_once, const Words& words) {
+  refuse_where_slurm_is_at_work(folder.root());
+  heed_signals();
+  LocalJobs driver(at_once, Voice::heard, &interrupted);
+  attend(runs, folder, driver, command_of);
+  if (worst(runs) == static_cast<int>(ExitCode::interrupted)) say("interrupted; go on with: {}\n", command_line(words));
+}
+
 int batch(const BatchArguments& arguments) {
+  const std::vector<std::string> sbatch = slurm::user_options(arguments.sbatch);
   auto [plan, runs] = batch_of(arguments);
   DeckChecks checks;
   checks.check_all(runs);
@@ -136,25 +130,41 @@ int batch(const BatchArguments& arguments) {
   const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
   OwnFolder folder(arguments.out, Manifest::Of::batch);
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
-  for (BatchRun& run : runs) run.options = options_of(run, shares.threads, arguments.words);
+  for (BatchRun& run : runs) run.options = options_of(run, shares.threads, command_line(arguments.words));
   say("{} runs, {} of them done already{}\n", runs.size(), done, refused ? fmt::format(", {} refused", refused) : "");
   if (outdated > 0) say("{} of them were done with other data files, and are run again\n", outdated);
   std::fflush(stdout);
-  if (arguments.engine == "slurm") {
-    write_tables(runs, folder);
-    submit_to_slurm(runs, shares.jobs, shares.threads, folder);
-    std::erase_if(runs, [](const BatchRun& run) { return !run.refused; });  // the others have not run yet
-    return worst(runs);
-  }
-  run_here(runs, shares.jobs, folder);
+  if (arguments.is_slurm())
+    attend_in_slurm(runs, folder, {shares.jobs, shares.threads, sbatch, !arguments.no_wait, arguments.words});
+  else
+    attend_here(runs, folder, shares.jobs, arguments.words);
   write_claims(plan, runs, folder);
-  if (worst(runs) == static_cast<int>(ExitCode::interrupted))
-    say("interrupted; go on with: {}\n", command_line(arguments.words));
   say("{}\n", (folder.root() / "batch.csv").string());
+  if (arguments.no_wait)
+    std::erase_if(runs, [](const BatchRun& run) { return !run.done && run.code < 0; });  // nobody knows yet
   return worst(runs);
 }
 
 }  // namespace
+
+std::vector<std::string> options_of(const BatchRun& run, int threads, const std::string& batch) {
+  std::vector<std::string> options{fs::absolute(run.deck.path).string(),
+                                   "--quiet",
+                                   "--label",
+                                   run.name,
+                                   "--batch",
+                                   batch,
+                                   "--out",
+                                   run.folder.string(),
+                                   "--threads",
+                                   std::to_string(threads)};
+  for (const Override& each : run.deck.request().overrides)
+    options.insert(options.end(), {"--set", each.name + "=" + each.value});
+  if (run.deck.no_plugins) options.emplace_back("--no-plugins");
+  for (const std::string& library : run.deck.libraries)
+    options.insert(options.end(), {"--plugins", fs::absolute(library).string()});
+  return options;
+}
 
 std::vector<std::string> command_of(const BatchRun& run) {
   std::vector<std::string> command{fs::canonical("/proc/self/exe").string(), run.is_study ? "calibrate" : "run"};
@@ -209,9 +219,16 @@ void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   verb->add_flag("--keep-going", arguments->keep_going, "Runs those whose decks are in order, though others are not");
-  verb->add_option("--engine", arguments->engine, "local: processes of this machine; slurm: an array of jobs")
-      ->check(CLI::IsMember({"local", "slurm"}))
-      ->capture_default_str();
+  CLI::Option* engine = verb->add_option("--engine", arguments->engine,
+                                         "local: processes of this machine; slurm: arrays of jobs, which go on "
+                                         "without this command, and which the same command follows")
+                            ->check(CLI::IsMember({"local", "slurm"}))
+                            ->capture_default_str();
+  verb->add_option("--sbatch", arguments->sbatch,
+                   "Options for sbatch, such as '--partition=long --time=4:00:00'; several add up")
+      ->allow_extra_args(false)
+      ->needs(engine);
+  verb->add_flag("--no-wait", arguments->no_wait, "Submits to Slurm and leaves")->needs(engine);
   verb->callback([&chosen, arguments] { chosen = [arguments] { return batch(*arguments); }; });
 }
 

@@ -2,6 +2,7 @@
 // Many runs of decks, each with other values of their parameters and a folder of its own.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "core/io/own_folder.hpp"
 #include "core/io/result_tables.hpp"
+#include "core/loop/job_driver.hpp"
 #include "core/loop/same_deck.hpp"
 #include "core/plugin/run_list.hpp"
 #include "workbench/report/results.hpp"
@@ -98,17 +100,28 @@ int worst(const std::vector<BatchRun>& runs);
 
 // ---- How they are run
 
+/// Of its command, as far as they are the same for all; `batch` is that of the batch.
+std::vector<std::string> options_of(const BatchRun& run, int threads, const std::string& batch);
 /// beadwork run ..., or calibrate ...: as soon as it is known which.
 std::vector<std::string> command_of(const BatchRun& run);
 
-/// Runs those that are neither done nor refused, so many at once, as processes of this machine; rewrites the tables
-/// whenever one ends. Stops them, so that they can be resumed, when it is interrupted; they stop by themselves when
-/// this process is killed. A run that another process is still at is waited for.
-void run_here(std::vector<BatchRun>& runs, int at_once, OwnFolder& folder);
+/// The command of a run, as the driver wants it.
+using Command = std::function<std::vector<std::string>(const BatchRun&)>;
 
-/// Writes a script for Slurm and submits it, with those runs that need nothing that is still to come; `at_once` = 0 leaves
-/// that to Slurm. MachineFailure, naming the script, if
-/// there is no sbatch here.
-void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, OwnFolder& folder);
+/// Has the driver run those that are neither done nor refused, and rewrites the tables whenever one ends
+/// (batch_attend.cpp).
+void attend(std::vector<BatchRun>& runs, OwnFolder& folder, JobDriver& driver, const Command& command);
+
+/// How a batch uses Slurm (batch_slurm.cpp).
+struct SlurmWish {
+  int jobs = 0, threads = 1;
+  std::vector<std::string> sbatch;  ///< words for sbatch
+  bool follow = true;
+  Words words;  ///< that were typed
+};
+/// Submits and follows; says how the jobs go on, and how they are cancelled, where they outlast this command.
+void attend_in_slurm(std::vector<BatchRun>& runs, OwnFolder& folder, const SlurmWish& wish);
+/// DeckFailure if jobs of a batch in this folder are in Slurm's queue: nobody else may run them.
+void refuse_where_slurm_is_at_work(const std::filesystem::path& folder);
 
 }  // namespace beadwork

@@ -1,67 +1,80 @@
+// A batch in the queue of Slurm.
+
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
 
-#include "core/base/failure.hpp"
 #include "core/base/text.hpp"
-#include "core/io/file.hpp"
-#include "core/loop/local_jobs.hpp"
 #include "workbench/batch.hpp"
+#include "workbench/signals.hpp"
+#include "workbench/slurm/slurm_jobs.hpp"
 #include "workbench/terminal.hpp"
 
 namespace beadwork {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-// sbatch fills in what stands behind a %.
-std::string without_patterns(const std::string& path) {
-  std::string text;
-  for (const char c : path) text += c == '%' ? std::string("%%") : std::string(1, c);
-  return text;
+constexpr const char* ledger_name = "batch.jobs";
+constexpr const char* desk_name = "batch.slurm";
+
+/// beadwork job ...: it waits for nobody, but looks whether all is there that the run needs.
+std::vector<std::string> command_in_slurm(const BatchRun& run, const std::vector<BatchRun>& all) {
+  std::vector<std::string> command{fs::canonical("/proc/self/exe").string(), "job"};
+  command.insert(command.end(), run.options.begin(), run.options.end());
+  command.insert(command.end(), {"--as", run.postponed ? "either" : run.is_study ? "calibrate" : "run"});
+  for (const std::size_t need : run.needs)
+    if (!all[need].done) command.insert(command.end(), {"--need", all[need].folder.string()});
+  return command;
+}
+
+std::string following(Words words) {
+  std::erase(words, "--no-wait");
+  return command_line(words);
+}
+
+void tell_what_goes_on(const slurm::SlurmJobs& driver, const Words& words) {
+  if (driver.with_slurm() > 0)
+    say("{} runs are with Slurm, which goes on without this command\n  follow them: {}\n  cancel them: scancel {}\n",
+        driver.with_slurm(), following(words), join(driver.left(), " "));
+  if (driver.not_taken() > 0)
+    say("{} runs are not submitted yet; submit them, too: {}\n", driver.not_taken(), following(words));
 }
 
 }  // namespace
 
-void submit_to_slurm(const std::vector<BatchRun>& runs, int at_once, int threads, OwnFolder& folder) {
-  std::string commands;  // a line each: a job that Slurm starts once more goes on where it was
-  int count = 0, later = 0;
-  for (const BatchRun& run : runs) {
-    if (run.done || run.refused) continue;
-    const bool waits =
-        std::any_of(run.needs.begin(), run.needs.end(), [&](std::size_t need) { return !runs[need].done; });
-    if (waits) {
-      ++later;
-      continue;
-    }
-    commands += "exec " + command_line(command_of(run)) + "\n";
-    ++count;
-  }
-  if (later > 0) say("{} runs need others that are not done: give the same command again once these are\n", later);
-  if (count == 0) return;
-  const auto list = std::filesystem::absolute(folder.claim("batch.commands"));
-  const auto script = std::filesystem::absolute(folder.claim("batch.sbatch"));
-  write_atomically(list, commands);
-  write_atomically(
-      script, fmt::format("#!/bin/bash\n"
-                          "#SBATCH --job-name=beadwork\n"
-                          "#SBATCH --array=1-{}{}\n"
-                          "#SBATCH --cpus-per-task={}\n"
-                          "#SBATCH --requeue\n"
-                          "commands={}\n"
-                          "eval \"$(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" \"$commands\")\"\n",
-                          count, at_once > 0 ? fmt::format("%{}", at_once) : "", threads, shell_quoted(list.string())));
-  const pid_t child = start_program(
-      {"sbatch", "--output", without_patterns(script.parent_path().string()) + "/slurm-%a.log", script.string()});
-  int status = 0;
-  if (child > 0) ::waitpid(child, &status, 0);
-  if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
-    throw MachineFailure(
-        fmt::format("there is no sbatch here; submit it where there is one: sbatch {}", script.string()));
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw MachineFailure(fmt::format("error: sbatch refused {}", script.string()));
-  say("{} runs submitted; the same command with --engine local makes the table once they are done\n", count);
+void attend_in_slurm(std::vector<BatchRun>& runs, OwnFolder& folder, const SlurmWish& wish) {
+  heed_signals();
+  const fs::path ledger = fs::absolute(folder.claim(ledger_name)), desk = fs::absolute(folder.claim(desk_name));
+  fs::create_directories(desk);
+  slurm::SlurmJobs driver({.at_once = wish.jobs,
+                           .threads = wish.threads,
+                           .sbatch = wish.sbatch,
+                           .follow = wish.follow,
+                           .ledger = ledger,
+                           .desk = desk,
+                           .interrupt = &interrupted,
+                           .say = [](const std::string& line) {
+                             say("{}\n", line);
+                             std::fflush(stdout);
+                           }});
+  attend(runs, folder, driver, [&runs](const BatchRun& run) { return command_in_slurm(run, runs); });
+  tell_what_goes_on(driver, wish.words);
+}
+
+void refuse_where_slurm_is_at_work(const fs::path& folder) {
+  const auto entries = slurm::read_ledger(folder / ledger_name);
+  if (entries.empty()) return;
+  const auto queue = slurm::queue();
+  if (!queue) return;
+  for (const slurm::Entry& entry : entries)
+    for (std::size_t task = 0; task < entry.jobs.size(); ++task)
+      if (const auto seen = queue->find({entry.word, task}); seen != queue->end() && !seen->second.has_ended())
+        throw DeckFailure(
+            fmt::format("error: '{}' is in Slurm's queue, as are others perhaps: follow them with --engine slurm, or "
+                        "cancel them: scancel {}",
+                        entry.jobs[task], seen->second.array));
 }
 
 }  // namespace beadwork

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   add_plan(app, chosen);
   add_new(app, chosen);
   add_batch(app, chosen, words);
+  add_job(app, chosen);
   add_calibrate(app, chosen, words);
   add_law(app, chosen, words);
   add_trade(app, chosen, words);

@@ -31,6 +31,7 @@ void add_describe(CLI::App& app, Chosen& chosen);
 void add_plan(CLI::App& app, Chosen& chosen);
 void add_new(CLI::App& app, Chosen& chosen);
 void add_batch(CLI::App& app, Chosen& chosen, const Words& words);
+void add_job(CLI::App& app, Chosen& chosen);
 void add_calibrate(CLI::App& app, Chosen& chosen, const Words& words);
 void add_law(CLI::App& app, Chosen& chosen, const Words& words);
 void add_trade(CLI::App& app, Chosen& chosen, const Words& words);

@@ -126,7 +126,7 @@ class Pool {
 
 class Attendant {
  public:
-  Attendant(const std::vector<LocalJob>& jobs, int at_once, Voice voice, const std::atomic<int>* interrupt,
+  Attendant(const std::vector<Job>& jobs, int at_once, Voice voice, const std::atomic<int>* interrupt,
             JobEvents& events)
       : jobs_(jobs), interrupt_(interrupt), events_(events), pool_(at_once, voice) {
     for (std::size_t k = 0; k < jobs.size(); ++k) waiting_.push_back(k);
@@ -181,7 +181,9 @@ class Attendant {
       if (turn == Turn::later) {
         left.push_back(number);
       } else if (is_busy(jobs_[number].folder)) {
-        if (elsewhere_.insert(number).second) events_.is_written_elsewhere(number, holder_of(jobs_[number].folder));
+        if (elsewhere_.insert(number).second)
+          events_.is_held_up(number,
+                             fmt::format("{} is still writing this run; waiting", holder_of(jobs_[number].folder)));
         left.push_back(number);
         busy = true;
       } else if (!elsewhere_.contains(number) || !events_.was_done_elsewhere(number)) {
@@ -193,7 +195,7 @@ class Attendant {
     if (busy) next_look_ = Clock::now() + std::chrono::milliseconds(500);
   }
 
-  const std::vector<LocalJob>& jobs_;
+  const std::vector<Job>& jobs_;
   const std::atomic<int>* interrupt_;
   JobEvents& events_;
   Pool pool_;
@@ -203,12 +205,6 @@ class Attendant {
 };
 
 }  // namespace
-
-double sum_of(const std::vector<JobShare>& jobs) {
-  double sum = 0;
-  for (const JobShare& each : jobs) sum += each.share;
-  return sum;
-}
 
 const std::vector<int>& asking_signals() {
   static const std::vector<int> all{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
@@ -238,9 +234,8 @@ pid_t start_program(const std::vector<std::string>& command, int also, Voice voi
   ::_exit(127);
 }
 
-void run_jobs(const std::vector<LocalJob>& jobs, int at_once, Voice voice, const std::atomic<int>* interrupt,
-              JobEvents& events) {
-  Attendant(jobs, at_once, voice, interrupt, events).attend();
+void LocalJobs::run(const std::vector<Job>& jobs, JobEvents& events) {
+  Attendant(jobs, at_once_, voice_, interrupt_, events).attend();
 }
 
 Shares Shares::among(std::size_t runs) const {

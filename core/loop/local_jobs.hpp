@@ -1,13 +1,13 @@
 #pragma once
-// Programs as processes of this machine, so many at once: started, listened to, waited for. Batches and studies run
-// their scenes in this way.
+// Programs as processes of this machine, so many at once: started, listened to, waited for.
 
 #include <sys/types.h>
 
 #include <atomic>
-#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "core/loop/job_driver.hpp"
 
 namespace beadwork {
 
@@ -23,48 +23,21 @@ bool ends_by_asking(int number);
 /// All these.
 const std::vector<int>& asking_signals();
 
-/// A scene that is run in a folder of its own.
-struct LocalJob {
-  std::string name;
-  std::filesystem::path folder;
-  std::vector<std::string> command;  ///< it takes --tell, and writes there how far it has come
-};
-
-struct JobEnd {
-  int code = -1;    ///< exit code, or what stands for the signal that killed it
-  std::string how;  ///< "exit code 3", "killed by signal 9 (Killed)"
-};
-
-/// A job at work, and how far it has come, 0 to 1.
-struct JobShare {
-  std::size_t job;
-  double share;
-};
-/// Of all.
-double sum_of(const std::vector<JobShare>& jobs);
-
-enum class Turn { now, later, never };
-
-/// What is told of them while they run; numbers are those of the list.
-class JobEvents {
+/// Runs them as processes of this machine, so many at once. Each command takes --tell, and writes there how far it has
+/// come.
+class LocalJobs final : public JobDriver {
  public:
-  virtual ~JobEvents() = default;
-  /// Whether a job may begin: it may need what others leave. Asked again and again; one that never may is left out.
-  virtual Turn turn_of(std::size_t /*job*/) { return Turn::now; }
-  virtual void began(std::size_t /*job*/) {}
-  virtual void ended(std::size_t job, const JobEnd& end) = 0;
-  /// Another process is writing its folder and is waited for.
-  virtual void is_written_elsewhere(std::size_t /*job*/, const std::string& /*by*/) {}
-  /// That other process has ended: whether the job is done now.
-  virtual bool was_done_elsewhere(std::size_t /*job*/) { return false; }
-  /// Now and then: those at work.
-  virtual void at_work(const std::vector<JobShare>& /*jobs*/) {}
-};
+  LocalJobs(int at_once, Voice voice, const std::atomic<int>* interrupt)
+      : at_once_(at_once), voice_(voice), interrupt_(interrupt) {}
+  /// Asks those at work to stop, so that they can be resumed, once `interrupt` is not zero, and starts no other; and
+  /// whatever is thrown on the way: no process is left to itself.
+  void run(const std::vector<Job>& jobs, JobEvents& events) override;
 
-/// Runs all. Asks those at work to stop, so that they can be resumed, once `interrupt` is not zero, and starts no other;
-/// and whatever is thrown on the way: no process is left to itself.
-void run_jobs(const std::vector<LocalJob>& jobs, int at_once, Voice voice, const std::atomic<int>* interrupt,
-              JobEvents& events);
+ private:
+  int at_once_;
+  Voice voice_;
+  const std::atomic<int>* interrupt_;
+};
 
 /// How the processors are shared out: jobs at once, threads of each; 0 is open.
 struct Shares {

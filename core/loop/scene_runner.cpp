@@ -114,7 +114,7 @@ Outcome SceneRunner::outcome_of(const Scene& scene) const {
 // What is heard of those that run.
 class SceneRunner::Events final : public JobEvents {
  public:
-  Events(const SceneRunnerOptions& options, std::vector<LocalJob>& jobs, std::size_t all)
+  Events(const SceneRunnerOptions& options, std::vector<Job>& jobs, std::size_t all)
       : options_(options), jobs_(jobs), before_(all - jobs.size()), all_(all) {}
 
   void ended(std::size_t job, const JobEnd& end) override {
@@ -127,8 +127,8 @@ class SceneRunner::Events final : public JobEvents {
       failure_ =
           fmt::format("error: {}: {}, see {}", jobs_[job].name, end.how, (jobs_[job].folder / "run.log").string());
   }
-  void is_written_elsewhere(std::size_t job, const std::string& by) override {
-    options_.log.say(fmt::format("{}: {} is still writing this run; waiting", jobs_[job].name, by));
+  void is_held_up(std::size_t job, const std::string& why) override {
+    options_.log.say(fmt::format("{}: {}", jobs_[job].name, why));
   }
   bool was_done_elsewhere(std::size_t job) override {
     if (!has_ended(jobs_[job].folder)) return false;
@@ -147,7 +147,7 @@ class SceneRunner::Events final : public JobEvents {
 
  private:
   const SceneRunnerOptions& options_;
-  const std::vector<LocalJob>& jobs_;
+  const std::vector<Job>& jobs_;
   std::size_t before_, all_, ended_ = 0;
   int worst_ = 0;
   std::string failure_;
@@ -155,7 +155,7 @@ class SceneRunner::Events final : public JobEvents {
 
 std::vector<Outcome> SceneRunner::run(const std::vector<Errand>& errands) {
   const std::vector<Scene> scenes = scenes_of(errands);
-  std::vector<LocalJob> jobs;
+  std::vector<Job> jobs;
   std::map<fs::path, bool> asked_for;  // two errands may be the same
   std::vector<const Errand*> of_jobs;
   for (std::size_t k = 0; k < scenes.size(); ++k) {
@@ -169,7 +169,7 @@ std::vector<Outcome> SceneRunner::run(const std::vector<Errand>& errands) {
   for (std::size_t k = 0; k < jobs.size(); ++k)
     jobs[k].command = command_for(*of_jobs[k], jobs[k].folder, shares.threads);
   Events events(options_, jobs, errands.size());
-  run_jobs(jobs, shares.jobs, Voice::silent, options_.interrupt, events);
+  LocalJobs(shares.jobs, Voice::silent, options_.interrupt).run(jobs, events);
   runs_ += jobs.size();
   if ((options_.interrupt && *options_.interrupt) || events.any_interrupted())
     throw Interrupted(fmt::format("interrupted; go on with: {}", options_.command));

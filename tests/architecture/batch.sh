@@ -87,11 +87,11 @@ says "1 of them were done with other data files"
 [ "$(column elements data)" = $'3\n2' ] || fail "not run again with three elements: $(cat "$work/data/batch.csv")"
 
 echo "files of somebody else are left alone"
-for file in batch.csv batch.commands batch.sbatch batch.files; do
+for file in batch.csv batch.jobs batch.slurm batch.files; do
   mkdir -p "$work/mine-$file"
   echo mine >"$work/mine-$file/$file"
   engine=local
-  case $file in batch.commands | batch.sbatch) engine=slurm ;; esac
+  case $file in batch.jobs | batch.slurm) engine=slurm ;; esac
   expect 2 "$beadwork" batch "$deck" --out "$work/mine-$file" --vary 'E=50 GPa' --engine $engine
   says "mine-$file/$file' is there already, and no batch made it"
   says "choose another folder"
@@ -281,40 +281,47 @@ sed 's|<force-curve |&at="1000 s" |' "$deck" >"$work/vain.xml"
 expect 0 "$beadwork" batch "$work/vain.xml" --out "$work/vain" --vary 'E=50 GPa,100 GPa' --jobs 2
 for run in E=50-GPa E=100-GPa; do grep -q "^\[$run\] warning: " "$work/output" || fail "who speaks? $run"; done
 
-echo "Slurm gets an array of jobs"
-slurm=("$beadwork" batch "$deck" --out "$work/slurm" --vary 'E=50 GPa,100 GPa' --engine slurm)
-expect 1 env PATH=/nowhere "${slurm[@]}"
-grep -q "no sbatch here" "$work/output" || fail "no reason"
+echo "Slurm's jobs do the same, go on and begin anew as processes of this machine do" # against a real one: engines.sh
+expect 1 env PATH=/nowhere "$beadwork" batch "$deck" --out "$work/slurm" --vary 'E=50 GPa,100 GPa' --engine slurm
+says "there is no scontrol here"
 mkdir "$work/bin"
-printf '#!/bin/bash\nfor task in 1 2; do SLURM_ARRAY_TASK_ID=$task bash "${@: -1}"; done\n' >"$work/bin/sbatch"
-chmod +x "$work/bin/sbatch"
-expect 0 env PATH="$work/bin:$PATH" "${slurm[@]}"
-expect 0 "$beadwork" batch "$deck" --out "$work/slurm" --vary 'E=50 GPa,100 GPa'
-grep -q "2 of them done already" "$work/output" || fail "the jobs did not run"
-
-echo "Slurm's jobs go on and begin anew as those of this machine do"
-printf '#!/bin/bash\nSLURM_ARRAY_TASK_ID=1 bash "${@: -1}" || true\n' >"$work/bin/sbatch"
-expect 0 env PATH="$work/bin:$PATH" "$beadwork" batch "$deck" --out "$work/full-slurm" --vary 'E=50 GPa' --set n=100000 --engine slurm
+# One that does all at once, and whose queue is always empty.
+cat >"$work/bin/sbatch" <<END
+#!/bin/bash
+for word; do case \$word in --array=0-*) last=\${word#--array=0-} ;; esac; done
+cat >"$work/script"
+for task in \$(seq 0 "\${last%%%*}"); do SLURM_ARRAY_JOB_ID=17 SLURM_ARRAY_TASK_ID=\$task bash "$work/script"; done
+echo 17
+END
+printf '#!/bin/bash\n' >"$work/bin/squeue"
+printf '#!/bin/bash\necho "MaxArraySize = 1001"\n' >"$work/bin/scontrol"
+chmod +x "$work"/bin/*
+in_slurm() { # CODE COMMAND...
+  local code=$1
+  shift
+  expect "$code" env PATH="$work/bin:$PATH" "$@" --engine slurm
+}
+in_slurm 0 "$beadwork" batch "$deck" --out "$work/slurm" --vary 'E=50 GPa,100 GPa'
+says "E=50-GPa: done"
+[ "$(rows ',done,2,200,' slurm)" = 2 ] || fail "not done: $(cat "$work/slurm/batch.csv")"
+in_slurm 0 "$beadwork" batch "$deck" --out "$work/full-slurm" --vary 'E=50 GPa' --set n=100000
 grep -q "resumed at step" "$work/full-slurm/E=50-GPa/run.log" || fail "begun anew instead of resumed"
-expect 0 env PATH="$work/bin:$PATH" "${wild[@]}" --engine slurm
+in_slurm 3 "${wild[@]}"
+says "E=50-GPa: exit code 3, see"
 ! grep -q "resumed at step" "$work/wild/E=50-GPa/run.log" || fail "went on to fail again"
 
 echo "decks that were refused are not forgotten when others are submitted"
 sed 's|<scene |<scene plugins="${library}" |; s|<parameter name="v"|<parameter name="library" value="x"/>&|' "$deck" >"$work/library.xml"
 mkdir "$work/libraries"
-expect 4 env PATH="$work/bin:$PATH" "$beadwork" batch "$work/library.xml" --out "$work/refused" --vary "library=$work/libraries,$work/none.so" --engine slurm --keep-going
-says "1 runs submitted"
+in_slurm 4 "$beadwork" batch "$work/library.xml" --out "$work/refused" --vary "library=$work/libraries,$work/none.so" --keep-going
+[ "$(rows ',done,' refused)" = 1 ] || fail "the other has not run: $(cat "$work/refused/batch.csv")"
 
 echo "no value becomes a command"
 trap=$'50 GPa\ntouch hacked1\n' && odd="\$(touch $work/hacked2)\`touch $work/hacked3\`'; touch $work/hacked4; '\""
-cat >"$work/bin/sbatch" <<'END'
-#!/bin/bash
-for task in $(seq "$(wc -l <"$(dirname "${@: -1}")/batch.commands")"); do SLURM_ARRAY_TASK_ID=$task bash "${@: -1}" || echo "task $task: $?"; done
-END
 sed 's|<scene name="[^"]*"|<scene name="${title}"|; s|<parameter name="v"|<parameter name="title" value="x"/>&|' "$deck" >"$work/titled.xml"
 hacked=("$beadwork" batch "$work/titled.xml" --vary "title=a${trap}b,$odd" --set n=3)
-(cd "$work" && expect 0 env PATH="$work/bin:$PATH" "${hacked[@]}" --out "$work/hack" --engine slurm)
-[ "$(wc -l <"$work/hack/batch.commands")" = 2 ] || fail "not a line a run: $(cat "$work/hack/batch.commands")"
+(cd "$work" && in_slurm 0 "${hacked[@]}" --out "$work/hack")
+[ "$(grep -c '^[0-9]*) exec ' "$work/script")" = 2 ] || fail "not a line a run: $(cat "$work/script")"
 [ -z "$(find "$work" -name 'hacked*')" ] || fail "a value was run as a command"
 expect 0 "${hacked[@]}" --out "$work/hack"
 says "2 of them done already"

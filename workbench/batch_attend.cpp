@@ -1,39 +1,48 @@
-// Runs as processes of this machine, and the table of what came of them.
+// Runs while somebody sees to them, wherever that is: whose turn it is, what is told, and the table of what came of them.
+
+#include <fmt/format.h>
 
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <set>
 
 #include "core/base/failure.hpp"
-#include "core/io/file.hpp"
-#include "core/loop/local_jobs.hpp"
+#include "core/loop/job_driver.hpp"
 #include "workbench/batch.hpp"
 #include "workbench/progress.hpp"
-#include "workbench/signals.hpp"
 #include "workbench/terminal.hpp"
 
 namespace beadwork {
 
 namespace {
 
-class Here final : public JobEvents {
+class Attendance final : public JobEvents {
   using Clock = std::chrono::steady_clock;
 
  public:
-  Here(std::vector<BatchRun>& runs, OwnFolder& folder) : runs_(runs), folder_(folder) {
-    for (BatchRun& run : runs_) {
+  Attendance(std::vector<BatchRun>& runs, OwnFolder& folder, Command command)
+      : runs_(runs), folder_(folder), command_(std::move(command)) {
+    std::map<std::size_t, std::size_t> job_of;
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      BatchRun& run = runs_[k];
       if (run.done || run.refused) {
         ++ended_;
         continue;
       }
+      job_of[k] = jobs_.size();
       waiting_.push_back(&run);
-      jobs_.push_back({run.name, run.folder, command_of(run)});
+      jobs_.push_back({run.name, run.folder, command_(run)});
     }
+    for (std::size_t job = 0; job < jobs_.size(); ++job)
+      for (const std::size_t need : waiting_[job]->needs)
+        if (const auto found = job_of.find(need); found != job_of.end()) jobs_[job].needs.push_back(found->second);
   }
 
-  void attend(int at_once) {
+  void attend(JobDriver& driver) {
     write();
-    run_jobs(jobs_, at_once, Voice::heard, &interrupted, *this);
+    driver.run(jobs_, *this);
+    progress_.hide();
     for (BatchRun* run : waiting_)
       if (run->code < 0) note_row(*run);
     write();
@@ -55,17 +64,21 @@ class Here final : public JobEvents {
 
   Turn turn_of(std::size_t job) override {
     BatchRun& run = *waiting_[job];
+    bool is_early = false;
     for (const std::size_t need : run.needs) {
       const BatchRun& other = runs_[need];
       if (other.done) continue;
       const bool may_come = other.code < 0 && !other.refused;
-      if (may_come) return Turn::later;
-      skip(run, other);
-      return Turn::never;
+      if (!may_come) {
+        skip(run, other);
+        return Turn::never;
+      }
+      is_early = true;
     }
+    if (is_early) return Turn::later;
     if (!run.postponed) return Turn::now;
     const Turn turn = turn_after_check(run);
-    jobs_[job].command = command_of(run);  // now it is known whether it is a calibration
+    jobs_[job].command = command_(run);  // now it is known whether it is a calibration
     return turn;
   }
 
@@ -98,15 +111,27 @@ class Here final : public JobEvents {
     BatchRun& run = *waiting_[job];
     at_work_.erase(job);
     run.code = end.code;
-    const std::string log = (run.folder / "run.log").string();
+    const std::string by = end.by.empty() ? "" : " (" + end.by + ")";
     if (run.code == static_cast<int>(ExitCode::interrupted))
-      note_done(run, "interrupted, goes on when the same command is given again");
+      note_done(run, fmt::format("interrupted{}, goes on when the same command is given again", by));
     else
-      note_done(run, run.code == 0 ? "done" : fmt::format("{}, see {}", end.how, log));
+      note_done(run, run.code == 0 ? "done" : fmt::format("{}{}, see {}", end.how, by, log_of(run, end)));
   }
 
-  void is_written_elsewhere(std::size_t job, const std::string& by) override {
-    tell(fmt::format("{}: {} is still writing this run; waiting", waiting_[job]->name, by));
+  /// Where it says what went wrong: it may not have come as far as its own log.
+  static std::string log_of(const BatchRun& run, const JobEnd& end) {
+    std::error_code error;
+    const std::filesystem::path own = run.folder / "run.log";
+    return (end.log.empty() || std::filesystem::exists(own, error) ? own : end.log).string();
+  }
+
+  void is_held_up(std::size_t job, const std::string& why) override {
+    tell(fmt::format("{}: {}", waiting_[job]->name, why));
+  }
+
+  void said(std::size_t /*job*/, const std::string& text) override {
+    progress_.hide();
+    write_error(text);
   }
 
   bool was_done_elsewhere(std::size_t job) override {
@@ -149,8 +174,9 @@ class Here final : public JobEvents {
 
   std::vector<BatchRun>& runs_;
   OwnFolder& folder_;
+  Command command_;
   std::vector<BatchRun*> waiting_;
-  std::vector<LocalJob> jobs_;  // of these, in their order
+  std::vector<Job> jobs_;  // of these, in their order
   std::set<std::size_t> at_work_;
   std::size_t ended_ = 0, here_ = 0;
   Clock::time_point written_;
@@ -162,9 +188,8 @@ class Here final : public JobEvents {
 
 }  // namespace
 
-void run_here(std::vector<BatchRun>& runs, int at_once, OwnFolder& folder) {
-  heed_signals();
-  Here(runs, folder).attend(at_once);
+void attend(std::vector<BatchRun>& runs, OwnFolder& folder, JobDriver& driver, const Command& command) {
+  Attendance(runs, folder, command).attend(driver);
 }
 
 }  // namespace beadwork

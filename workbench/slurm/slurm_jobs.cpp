@@ -1,0 +1,199 @@
+// How jobs are found again and followed.
+
+#include "workbench/slurm/slurm_jobs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "core/base/failure.hpp"
+#include "core/io/file.hpp"
+
+namespace beadwork::slurm {
+
+namespace {
+
+// A failing run may say a lot; its run.log has all of it.
+std::string log_text(const std::filesystem::path& log) {
+  constexpr std::uintmax_t most = 1 << 20;
+  try {
+    return read_text(log, most);
+  } catch (const MachineFailure&) {
+    return "";
+  }
+}
+
+}  // namespace
+
+SlurmJobs::SlurmJobs(Options options) : options_(std::move(options)), ledger_(options_.ledger) {}
+
+std::size_t SlurmJobs::count(At at) const {
+  return static_cast<std::size_t>(
+      std::count_if(own_.begin(), own_.end(), [at](const Own& own) { return own.at == at; }));
+}
+
+std::vector<std::string> SlurmJobs::left() const {
+  std::set<std::string> arrays;
+  for (const Own& own : own_)
+    if (own.at == At::queued) arrays.insert(own.array);
+  return {arrays.begin(), arrays.end()};
+}
+
+std::filesystem::path SlurmJobs::file_of(const Own& own, const char* ending) const {
+  return options_.desk / fmt::format("{}_{}.{}", own.array, task(own), ending);
+}
+
+void SlurmJobs::run(const std::vector<Job>& jobs, JobEvents& events) {
+  jobs_ = &jobs;
+  events_ = &events;
+  own_.assign(jobs.size(), Own{});
+  if (jobs.empty()) return;
+  limits_ = limits();
+  take_up();
+  while (!is_interrupted()) {
+    submit_what_can();
+    if (!options_.follow || with_slurm() + not_taken() == 0) break;
+    rest();
+    look();
+  }
+}
+
+// What has been submitted before and has not ended.
+void SlurmJobs::take_up() {
+  if (ledger_.entries().empty()) return;
+  const auto there = queue();
+  if (!there) throw MachineFailure("error: Slurm does not tell what is in its queue; give the same command again");
+  std::map<std::string, std::size_t> names;
+  for (std::size_t k = 0; k < jobs_->size(); ++k) names[(*jobs_)[k].name] = k;
+  bool any = false;
+  for (const Entry& entry : ledger_.entries()) any = take_up(entry, *there, names) || any;
+  if (!any) ledger_.clear();
+  if (with_slurm() > 0) options_.say(fmt::format("{} of them are in Slurm's queue already", with_slurm()));
+}
+
+/// Whether any of it is in the queue, be it of these jobs or of others that were submitted from here.
+bool SlurmJobs::take_up(const Entry& entry, const std::map<Place, Seen>& queue,
+                        const std::map<std::string, std::size_t>& names) {
+  bool any = false;
+  for (std::size_t task = 0; task < entry.jobs.size(); ++task) {
+    const auto seen = queue.find({entry.word, task});
+    if (seen == queue.end() || seen->second.has_ended()) continue;
+    any = true;
+    const auto known = names.find(entry.jobs[task]);
+    if (known == names.end()) continue;
+    Own& own = own_[known->second];
+    own.at = At::queued;
+    own.place = {entry.word, task};
+    own.array = seen->second.array;
+  }
+  return any;
+}
+
+void SlurmJobs::look() {
+  const auto there = queue();
+  if (!there) {
+    if (!silence_was_told_) options_.say("Slurm does not answer; its jobs go on, and it is asked again");
+    silence_was_told_ = true;
+    return;
+  }
+  silence_was_told_ = false;
+  for (std::size_t k = 0; k < own_.size(); ++k)
+    if (own_[k].at == At::queued) look_at(k, *there);
+}
+
+void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
+  Own& own = own_[job];
+  const auto found = queue.find(own.place);
+  if (found != queue.end() && found->second.is_waiting()) {
+    own.share = 0;  // perhaps once more
+    own.began = false;
+    note_held(job, found->second);
+    return;
+  }
+  const auto note = read_note(file_of(own, "note"));
+  if (note && note->end && note->end->code == 0) {
+    note_begun(job, note);
+    end(job, *note->end);
+  } else if (found == queue.end()) {
+    settle(job, state_of_gone(own.array, task(own)), "", note);
+  } else if (found->second.has_ended()) {
+    settle(job, found->second.state, found->second.reason, note);
+  } else if (found->second.is_running()) {
+    note_begun(job, note);
+  }
+}
+
+void SlurmJobs::note_begun(std::size_t job, const std::optional<Note>& note) {
+  Own& own = own_[job];
+  if (!own.began) events_->began(job);
+  own.began = true;
+  if (note && !note->end) own.share = note->share;
+}
+
+// What will not change by itself is told, once for an array.
+void SlurmJobs::note_held(std::size_t job, const Seen& seen) {
+  for (const char* sign : {"Held", "held", "BadConstraints", "PartitionTimeLimit", "PartitionNodeLimit", "NeverSatisf"})
+    if (seen.reason.find(sign) != std::string::npos && held_told_.insert(seen.array + seen.reason).second)
+      events_->is_held_up(job, fmt::format("job {} waits in Slurm's queue: {}", seen.array, seen.reason));
+}
+
+bool SlurmJobs::is_odd_for(Own& own, std::chrono::seconds patience) {
+  if (!own.odd_since) own.odd_since = Clock::now();
+  return Clock::now() - *own.odd_since >= patience;
+}
+
+/// Slurm says that it has ended.
+void SlurmJobs::settle(std::size_t job, const std::string& state, const std::string& reason,
+                       const std::optional<Note>& note) {
+  constexpr std::chrono::seconds late_files{60},
+      late_queue{2};  // a file system may show what another machine wrote late
+  Own& own = own_[job];
+  const bool has_note = note && note->end;
+  if (!has_note && !is_odd_for(own, state == "COMPLETED" ? late_files : late_queue)) return;
+  if (!own.may_begin) {  // perhaps it never could
+    const Turn turn = events_->turn_of(job);
+    if (turn == Turn::later) return;
+    own.may_begin = turn == Turn::now;
+    if (turn == Turn::never) return leave(own);
+  }
+  const bool by_itself = state == "COMPLETED" || state == "FAILED" || state.empty();
+  JobEnd ending = has_note ? *note->end : JobEnd{static_cast<int>(ExitCode::machine), told(state, reason)};
+  if (has_note && !by_itself) ending.by = told(state, reason);
+  end(job, std::move(ending));
+}
+
+void SlurmJobs::end(std::size_t job, JobEnd ending) {
+  Own& own = own_[job];
+  const auto log = file_of(own, "log");
+  const std::string text = log_text(log);
+  if (!text.empty()) events_->said(job, text);
+  if (!text.empty() && ending.code != 0) ending.log = log;
+  events_->ended(job, ending);
+  leave(own, ending.log.empty());
+}
+
+void SlurmJobs::leave(Own& own, bool with_log) {
+  own.at = At::over;
+  is_full_ = false;
+  std::error_code gone_already;
+  std::filesystem::remove(file_of(own, "note"), gone_already);
+  if (with_log) std::filesystem::remove(file_of(own, "log"), gone_already);
+}
+
+// The longer it goes on, the less often Slurm is asked: its controller serves many.
+void SlurmJobs::rest() {
+  using std::chrono::duration_cast, std::chrono::milliseconds;
+  constexpr milliseconds shortest{1000}, longest{20000}, slice{100};
+  const milliseconds pause = std::clamp(duration_cast<milliseconds>(Clock::now() - began_) / 20, shortest, longest);
+  const auto until = Clock::now() + pause;
+  std::vector<JobShare> shares;
+  for (std::size_t k = 0; k < own_.size(); ++k)
+    if (own_[k].at == At::queued && own_[k].began) shares.push_back({k, own_[k].share});
+  while (!is_interrupted() && Clock::now() < until) {
+    events_->at_work(shares);
+    std::this_thread::sleep_for(slice);
+  }
+}
+
+}  // namespace beadwork::slurm
