@@ -20,6 +20,22 @@ struct StepLimit {
   std::string by = "no bond limits it";
 };
 
+/// Refuses bonds whose stiffness no time step can be found for, as that is done in single precision: nearly always they
+/// are as good as no length.
+template <class Parts>
+void refuse_too_stiff(const Domain& domain, const ElasticNetwork& network, const Parts& parts) {
+  const auto id = domain.elements().column("id").view<Index>();
+  const auto position = domain.elements().column("position").view<Vec3>();
+  for (const auto& [law, table, chunk, begin] : parts)
+    for (Index b = chunk.begin; b < chunk.live_end; ++b) {
+      if (network.stiffness(begin + b - chunk.begin).allFinite()) continue;
+      const Index i = table->first()[b], j = table->second()[b];
+      refuse(law->at(), fmt::format("the bond of elements {} and {}, {:.3g} m apart, is stiffer than any number that a "
+                                    "time step can be found for; move them apart or leave it out",
+                                    id[i], id[j], Vec3(position[j] - position[i]).norm()));
+    }
+}
+
 /// `more(law, table, row, apart)` is added to the stiffness of each bond.
 template <class More>
 StepLimit elastic_limit(Workings& w, const View<const Real>& mass, const View<const Real>& inertia, const More& more) {
@@ -66,6 +82,7 @@ StepLimit elastic_limit(Workings& w, const View<const Real>& mass, const View<co
   each_shared(parts.size(), [&](std::size_t p) { blaming(*parts[p].law, "tangent", [&] { ask(parts[p]); }); });
   if (network.bonds() == 0) return {};
   const StableStep found = stable_step(network, mobility, 1);
+  if (!std::isfinite(found.dt) || found.dt == 0) refuse_too_stiff(domain, network, parts);
   StepLimit limit{found.dt, ""};
   if (!std::isfinite(found.dt)) return {};
   limit.by =

@@ -35,13 +35,33 @@ bool gains_a_family(const RunState& state, const Failure& failure) {
   });
 }
 
+// What lies far from the origin has few digits left: strains, and motions in a step, that are smaller are lost, and no
+// balance tells.
+std::string lost_by_rounding(const Domain& domain, const BondTable& table) {
+  constexpr Real lost = 1e-10;
+  const auto place = domain.elements().column("position").view<Vec3>();
+  Real rounded = 0, share = 0;
+  for (Index row = 0; row < table.size(); ++row) {
+    const Vec3 one = place[table.first()[row]], other = place[table.second()[row]];
+    const Real here =
+        std::numeric_limits<Real>::epsilon() * one.cwiseMax(-one).cwiseMax(other).cwiseMax(-other).maxCoeff();
+    if (const Real of_bond = here / (other - one).norm(); of_bond > share) share = of_bond, rounded = here;
+  }
+  if (share <= lost) return "";
+  return fmt::format(
+      "its elements stand so far from the origin that their places are rounded to {:.2g} m, {:.2g} of the length of a "
+      "bond: smaller strains are lost, and motions that are smaller in a step; move the scene to the origin",
+      rounded, share);
+}
+
 void connect_family(RunState& state, BondLaw& law, BondTable& table, const Log& log) {
   blaming(law, state.moment, [&] { law.connect(state.domain(), table); });
   const std::string remark = blaming(law, "remark", [&] { return law.remark(); });
   log.say(
       fmt::format("bond family '{}': {} bonds{}{}", law.family(), table.size(), remark.empty() ? "" : "; ", remark));
   const std::string caution = blaming(law, "caution", [&] { return law.caution(); });
-  if (!caution.empty()) log.warn(fmt::format("{}: bond family '{}': {}", law.at().where(), law.family(), caution));
+  for (const std::string& warning : {caution, lost_by_rounding(state.domain(), table)})
+    if (!warning.empty()) log.warn(fmt::format("{}: bond family '{}': {}", law.at().where(), law.family(), warning));
 }
 
 // The same on resume: of places those when the turn began count.

@@ -68,6 +68,7 @@ void Course::step() {
   model_.accept();
   kept_.note(newton_, system_, model_.supports());
   heed_burden();
+  if (begins) heed_rounding();
 }
 
 std::vector<MoverFigure> Course::figures() const {
@@ -131,6 +132,22 @@ void Course::heed_changes() {
   if (meets) analyse();
   if (broke_ || meets) hold();  // what was loose may touch something now
   kept_.heed(newton_, model_.supports());
+}
+
+// Forces are known to the rounding of places alone, times what is stiffest; less than that is in balance with anything.
+void Course::heed_rounding() {
+  constexpr Real known = 1e3;
+  const Real now = w_.moment().time;
+  const Vector after = model_.forces();
+  w_.moment().time = now - w_.moment().time_step;
+  const Real asked = (after - model_.forces()).norm();  // nothing has moved in between: loads alone change with time
+  w_.moment().time = now;
+  model_.forces();
+  if (!(asked > 0 && asked < known * model_.noise())) return;
+  w_.log().warn(fmt::format(
+      "{}: the loads change forces by {:.2g} N, which are known to {:.2g} N only, as places are rounded and the "
+      "stiffest bonds feel it: what is soft moves less than it should; soften what is stiffest, or load more",
+      choices_.at.where(), asked, model_.noise()));
 }
 
 // What is pinned because nothing holds it bears nothing where it is in equilibrium.

@@ -55,6 +55,7 @@ class Course {
   void hold();
   void heed_changes();
   void heed_burden();
+  void heed_rounding();
   bool is_out_of_balance();
   void settle();
   void advance();

@@ -1,16 +1,34 @@
 #include "core/statics/stiffness_matrix.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/base/failure.hpp"
 
 namespace beadwork {
+
+// Solvers count in 32 bits, and those that order by graphs count each number off the diagonal twice.
+std::size_t numbers_of_stiffness(std::size_t elements, std::size_t pairs, bool turning) {
+  constexpr std::size_t most = std::numeric_limits<int>::max() / 2;
+  const std::size_t d = turning ? 6 : 3, numbers = d * (d + 1) / 2 * elements + d * d * pairs;
+  if (numbers > most)
+    throw MachineFailure(
+        fmt::format("the stiffness of {} elements with {} pairs of them that hold one another has {} numbers, and no "
+                    "more than {} can be counted: <verlet> needs none",
+                    elements, pairs, numbers, most));
+  return numbers;
+}
 
 using Block = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
 StiffnessMatrix::StiffnessMatrix(Index elements, const std::vector<std::pair<Index, Index>>& pairs, Real length)
     : per_element_(length > 0 ? 6 : 3), length_(length) {
+  matrix_.row.reserve(numbers_of_stiffness(static_cast<std::size_t>(elements), pairs.size(), length > 0));
   begin_.assign(static_cast<std::size_t>(elements) + 1, 0);
   for (const auto& [first, second] : pairs) {
     ++begin_[static_cast<std::size_t>(first) + 1];

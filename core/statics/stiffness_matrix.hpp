@@ -2,6 +2,7 @@
 // The stiffness of a whole scene, put together from that of its bonds. Unknowns stand element by element: places, then,
 // where elements turn, turns in units of a length, so that all are lengths and all stiffnesses N/m.
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "core/statics/symmetric_matrix.hpp"
 
 namespace beadwork {
+
+/// How many numbers such a matrix of so many elements and pairs holds. Throws MachineFailure if solvers cannot count them.
+std::size_t numbers_of_stiffness(std::size_t elements, std::size_t pairs, bool turning);
 
 class StiffnessMatrix {
  public:

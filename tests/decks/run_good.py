@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs a good deck and holds what it gives against what is expected.   Usage: run_good.py BEADWORK EXPECT
+"""Runs a good deck and holds what it gives against what is expected.   Usage: run_good.py BEADWORK EXPECT [--measured]
 
     # a remark
     run with --set v=2 m/s                            more words for the command line, one option a line
@@ -7,13 +7,15 @@
     force.force at 1 ms = 300 N within 2 N            at the row nearest to a time
     |held.force at all| < 1e-6 N                      in every row; also: largest, smallest, start
     balance closes within 1e-6 J                      the residual of every row of the ledger and of summary.json; each deck says it
-    element 1 velocity.x = 2 m/s within 1e-9 percent  an element (by its id) at the end
+    element 1 velocity.x = 2 m/s within 1e-9 percent  an element (by its id) at the end; .size: of a vector or a quaternion
+    |whole momentum.x| < 1e-12 kg.m/s                 of all elements at the end; angular-momentum: about the origin, places and turns
     summary.breaks.axial = 1                          a figure of summary.json
 
 The run is then made once more from its resolved.xml alone, from another folder, and must leave the same.
 
 Comparisons: = |...| < >. Values are numbers or formulae such as 4/3*pi*2^3, with a unit. Without "within" = means equal. What is
 to be small is bounded on both sides, so < stands behind bars only; > says that something is there, and wants a value from zero up.
+--measured prints what was measured, too.
 """
 import csv
 import json
@@ -26,13 +28,14 @@ import tempfile
 from pathlib import Path
 
 import h5py
+import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 import same_run  # noqa: E402
 
 UNITS = {"": ("1", 1), "N": ("N", 1), "kN": ("N", 1e3), "mN": ("N", 1e-3), "J": ("J", 1), "mJ": ("J", 1e-3), "m": ("m", 1), "mm": ("m", 1e-3),
          "um": ("m", 1e-6), "nm": ("m", 1e-9), "s": ("s", 1), "ms": ("s", 1e-3), "us": ("s", 1e-6), "m/s": ("m/s", 1), "mm/s": ("m/s", 1e-3),
-         "1/s": ("1/s", 1), "rad": ("rad", 1), "N.m": ("N.m", 1), "Pa": ("Pa", 1), "MPa": ("Pa", 1e6), "kg": ("kg", 1)}
+         "1/s": ("1/s", 1), "rad": ("rad", 1), "N.m": ("N.m", 1), "Pa": ("Pa", 1), "MPa": ("Pa", 1e6), "kg": ("kg", 1), "kg.m/s": ("kg.m/s", 1), "kg.m2/s": ("kg.m2/s", 1)}
 
 
 class Mistake(Exception):
@@ -58,8 +61,10 @@ class Results:
 
     def values(self, what):
         """The values that are meant, and their unit."""
-        if found := re.fullmatch(r"element (\d+) ([\w-]+)(?:\.([xyz]))?", what):
+        if found := re.fullmatch(r"element (\d+) ([\w-]+)(?:\.([xyz]|size))?", what):
             return self.element(int(found[1]), found[2], found[3])
+        if found := re.fullmatch(r"whole (momentum|angular-momentum)\.([xyz])", what):
+            return self.whole(found[1], "xyz".index(found[2]))
         if what == "balance":
             return self.residuals(), "J"
         if what.startswith("summary."):
@@ -78,7 +83,19 @@ class Results:
                 elements = record["frames"][sorted(record["frames"])[-1]]["elements"]
             row = elements["id"][()].tolist().index(number)
             value = elements[field][row]
-            return [value["xyz".index(axis)] if axis else value], elements[field].attrs["unit"].decode()
+            component = {None: lambda: value, "size": lambda: float(numpy.linalg.norm(value))}
+            return [component.get(axis, lambda: value["xyz".index(axis)])()], elements[field].attrs["unit"].decode()
+
+    def whole(self, which, axis):
+        with h5py.File(self.folder / "checkpoint.h5") as saved:
+            elements = saved["elements"]
+            push = elements["mass"][()][:, None] * elements["velocity"][()]
+            if which == "momentum":
+                return [float(push.sum(axis=0)[axis])], "kg.m/s"
+            about = numpy.cross(elements["position"][()], push)
+            if "spin" in elements:
+                about += elements["inertia"][()][:, None] * elements["spin"][()]
+            return [float(about.sum(axis=0)[axis])], "kg.m2/s"
 
     def curve(self, name, column, place):
         with open(self.folder / f"curves/{name}.csv", encoding="utf-8") as file:
@@ -108,7 +125,8 @@ class Results:
 CLOSES = "balance closes within "
 
 
-def failure(line, results):
+def failure(line, results, tell):
+    """Why it is not met, or None."""
     found = re.fullmatch(r"(\|?)(.+?)(\|?) (=|<|>) (.+?)(?: within (.+))?", line.replace(CLOSES, "balance = 0 J within "))
     if not found:
         raise Mistake("no expectation")
@@ -127,13 +145,15 @@ def failure(line, results):
     if within:
         tolerance = abs(wanted) * quantity(within[:-8])[0] / 100 if within.endswith(" percent") else quantity(within)[0]
     holds = {"=": lambda v: abs(v - wanted) <= tolerance, "<": lambda v: abs(v) < wanted, ">": lambda v: v > wanted}[comparison]
+    if tell:
+        print(f"{line}\n    measured {max(values, key=lambda v: abs(v - wanted)):.12g} {unit}")
     bad = [v for v in values if not holds(v)]
     return f"got {bad[0]:.9g} {unit}, wanted {wanted:.9g}" if bad else None
 
 
-def objection(line, results):
+def objection(line, results, tell=False):
     try:
-        reason = failure(line, results)
+        reason = failure(line, results, tell)
     except (Mistake, KeyError, ValueError) as mistake:
         reason = f"this expectation cannot be read: {mistake}"
     return reason and f"{line}\n    {reason}"
@@ -180,7 +200,7 @@ def main():
         wrong = [f"of the resolved deck: {each}" for each in same_run.differences(out, Path(folder) / "again")]
         wrong += asleep(lines, Path(folder) / "forged")
         results = Results(out)
-        wrong += filter(None, (objection(line, results) for line in lines if not line.startswith("run with ")))
+        wrong += filter(None, (objection(line, results, "--measured" in sys.argv) for line in lines if not line.startswith("run with ")))
     print("\n".join(wrong) or f"{len(lines)} expectations met")
     return 1 if wrong else 0
 

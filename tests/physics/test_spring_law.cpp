@@ -54,5 +54,15 @@ TEST(spring, a_row_of_any_spacing_has_the_stiffness_of_its_fibre) {
   }
 }
 
+// Why single precision is given what has changed since bonding, and not places.
+TEST(spring, of_places_in_single_precision_ten_thousand_radii_away_does_not_feel_a_strain_of_a_millionth) {
+  const auto rest = round_spring(2, 1, 0.5);
+  const Real away = 1e4, other = away + 2 * (1 + 1e-6), expected = rest.axial * 2e-6;
+  const Real between_places = static_cast<float>(other) - static_cast<float>(away);
+  EXPECT_GT(std::abs(rest.axial * (between_places - rest.length) / expected - 1), 0.5);
+  const Real changed = static_cast<float>(other - (away + 2));
+  EXPECT_NEAR(rest.axial * changed, expected, 1e-5 * expected);
+}
+
 }  // namespace
 }  // namespace beadwork

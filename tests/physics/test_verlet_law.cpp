@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-#include "core/mechanics/beam.hpp"
 #include "core/mechanics/spring.hpp"
 #include "core/mechanics/verlet.hpp"
 #include "tests/support/mechanics.hpp"
+#include "tests/support/spinning_pair.hpp"
 
 namespace beadwork {
 namespace {
@@ -191,46 +191,21 @@ TEST(verlet, orientations_are_of_second_order) {
   EXPECT_NEAR(coarse / half, 4, 0.1);
 }
 
+// A million: tests/nightly.
 TEST(verlet, ten_thousand_revolutions_of_a_bonded_pair_keep_energy_spin_and_the_length_of_a_quaternion) {
-  const auto rest = round_beam(Vec3(1, 0, 0), 100, 0.3, 0.4);
-  const Real m = 1, inertia = 0.1, rate = 1;
-  // Each end on its circle at the stretch where the pull keeps it there: k (l - 1) = m rate^2 l/2
-  const Real l = 1 / (1 - m * rate * rate / (2 * rest.axial));
-  Vec3 x1(-l / 2, 0, 0), x2(l / 2, 0, 0), v1(0, -rate * l / 2, 0), v2(0, rate * l / 2, 0), w1(0, 0, rate),
-      w2(0, 0, rate);
-  Quat q1 = identity(), q2 = identity();
-  const int per_turn = 200;
-  const Real dt = 2 * pi / rate / per_turn;
-  ASSERT_LT(dt, 2 / std::sqrt(2 * rest.axial / m));
-  const auto energy = [&] {
-    return 0.5 * (m * v1.squaredNorm() + m * v2.squaredNorm() + inertia * (w1.squaredNorm() + w2.squaredNorm())) +
-           beam_energy(rest, x2 - x1, q1, q2).total();
-  };
-  const auto spin = [&]() -> Vec3 { return m * (cross(x1, v1) + cross(x2, v2)) + inertia * (w1 + w2); };
-  const Real start = energy();
-  const Vec3 spin_start = spin();
-  auto on = beam_wrench(rest, x2 - x1, q1, q2);
+  SpinningPair pair;
+  ASSERT_TRUE(pair.is_stable());
+  const Real start = pair.energy();
+  const Vec3 spin_start = pair.spin();
   Real worst = 0, tilt = 0;
   for (int turns = 0; turns < 10000; ++turns) {
-    for (int step = 0; step < per_turn; ++step) {
-      x1 = advance<Real>(x1, v1, -on.force / m, dt);
-      x2 = advance<Real>(x2, v2, on.force / m, dt);
-      q1 = turn<Real>(q1, w1, on.torque1 / inertia, dt);
-      q2 = turn<Real>(q2, w2, on.torque2 / inertia, dt);
-      const auto next = beam_wrench(rest, x2 - x1, q1, q2);
-      v1 = correct<Real>(v1, -on.force / m, -next.force / m, 1, dt);
-      v2 = correct<Real>(v2, on.force / m, next.force / m, 1, dt);
-      w1 = correct<Real>(w1, on.torque1 / inertia, next.torque1 / inertia, 1, dt);
-      w2 = correct<Real>(w2, on.torque2 / inertia, next.torque2 / inertia, 1, dt);
-      on = next;
-    }
-    worst = std::max(worst, std::abs(energy() / start - 1));
-    tilt = std::max({tilt, std::abs(x1[2]), std::abs(x2[2]), std::abs(w1[0]), std::abs(w1[1])});
+    pair.turn_once();
+    worst = std::max(worst, std::abs(pair.energy() / start - 1));
+    tilt = std::max(tilt, pair.tilt());
   }
   EXPECT_LT(worst, 1e-6);
-  EXPECT_LT((spin() - spin_start).norm(), 1e-10 * spin_start.norm());
-  EXPECT_LT(std::abs(squared_norm(q1) - 1), 1e-12);
-  EXPECT_LT(std::abs(squared_norm(q2) - 1), 1e-12);
+  EXPECT_LT((pair.spin() - spin_start).norm(), 1e-10 * spin_start.norm());
+  EXPECT_LT(pair.stretch_of_quaternions(), 1e-12);
   EXPECT_EQ(tilt, 0);
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "core/base/failure.hpp"
 #include "core/statics/acceleration.hpp"
 #include "core/statics/event.hpp"
 #include "core/statics/increments.hpp"
@@ -209,6 +210,13 @@ TEST(StiffnessMatrices, add_up_bonds_in_units_of_a_length) {
   }
   const MatrixXd found = MatrixXd(scene.matrix().lower()).selfadjointView<Eigen::Lower>();
   EXPECT_LT((found - full).norm(), 1e-13 * full.norm());
+}
+
+TEST(StiffnessMatrices, of_more_numbers_than_can_be_counted_are_refused) {
+  EXPECT_EQ(numbers_of_stiffness(3, 2, false), 3 * 6 + 2 * 9);
+  EXPECT_EQ(numbers_of_stiffness(8'000'000, 24'000'000, true), 8 * 129'000'000);
+  EXPECT_THROW(numbers_of_stiffness(10'000'000, 31'000'000, true), MachineFailure);
+  EXPECT_NO_THROW(numbers_of_stiffness(10'000'000, 31'000'000, false)) << "of springs";
 }
 
 TEST(StiffnessMatrices, hold_what_nothing_resists_and_nothing_else) {
