@@ -7,4 +7,4 @@ if [ "$(id -u)" -eq 0 ]; then
   tools/install-packages.sh slurm-wlm munge || echo "test: no Slurm can be installed; its test is skipped" >&2
 fi
 tools/build.sh release -DBEADWORK_TESTS=ON
-ctest --preset release "$@"
+ctest --preset release --parallel "$(nproc)" "$@"
