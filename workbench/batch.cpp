@@ -129,6 +129,7 @@ int batch(const BatchArguments& arguments) {
   const std::size_t done = count([](const BatchRun& run) { return run.done; });
   const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
   OwnFolder folder(arguments.out, Manifest::Of::batch);
+  const ClaimFiles claims(plan, folder);
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
   for (BatchRun& run : runs) run.options = options_of(run, shares.threads, command_line(arguments.words));
   say("{} runs, {} of them done already{}\n", runs.size(), done, refused ? fmt::format(", {} refused", refused) : "");
@@ -138,7 +139,7 @@ int batch(const BatchArguments& arguments) {
     attend_in_slurm(runs, folder, {shares.jobs, shares.threads, sbatch, !arguments.no_wait, arguments.words});
   else
     attend_here(runs, folder, shares.jobs, arguments.words);
-  write_claims(plan, runs, folder);
+  claims.write(runs);
   say("{}\n", (folder.root() / "batch.csv").string());
   if (arguments.no_wait)
     std::erase_if(runs, [](const BatchRun& run) { return !run.done && run.code < 0; });  // nobody knows yet

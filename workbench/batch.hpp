@@ -21,6 +21,7 @@ namespace beadwork {
 struct BatchRun {
   std::string name;   ///< "young=30-GPa,seed=2": that of its folder, below that of the batch
   std::string title;  ///< "young=30 GPa, seed=2": what is shown
+  std::string sweep;  ///< whose run it is; empty where there is none
   std::vector<std::pair<std::string, std::string>> values;  ///< of what varies
   std::filesystem::path folder;
   DeckArguments deck;                ///< with its values
@@ -86,6 +87,8 @@ class DeckChecks {
 bool is_done(BatchRun& run);
 /// Reads what the run says of itself now.
 void note_row(BatchRun& run);
+/// A run's cells, by the names of their columns: its values, what it says of itself, its results.
+Results cells_of(const BatchRun& run);
 /// The runs and what came of them as it was noted last.
 ResultTable batch_table(const std::vector<BatchRun>& runs);
 /// Whether a parameter only says which draw it is: "seed", or one whose name ends in "-seed".

@@ -23,7 +23,7 @@ std::vector<Group> groups_of(const std::vector<BatchRun>& runs) {
   std::map<std::string, std::size_t> known;
   for (const BatchRun& run : runs) {
     if (!run.done) continue;
-    Group group{run.name.substr(0, run.name.find('/') == std::string::npos ? 0 : run.name.find('/')), {}, {}};
+    Group group{run.sweep, {}, {}};
     std::string key = group.list + "/";
     for (const auto& each : run.values)
       if (!is_seed(each.first)) group.values.push_back(each), key += each.first + "=" + each.second + "\n";

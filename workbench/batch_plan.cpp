@@ -46,6 +46,7 @@ BatchRun run_of(const RunList& list, const std::string& deck, const std::vector<
   for (std::size_t k = 0; k < row.size(); ++k) run.values.emplace_back(list.parameters[k], row[k]);
   run.name = folder_name(run.values);
   run.title = title_of(run.values, run.name);
+  run.sweep = list.name;
   if (!list.name.empty()) {
     run.name = list.name + "/" + run.name;
     run.title = list.name + ": " + run.title;

@@ -66,8 +66,12 @@ void attend_in_slurm(std::vector<BatchRun>& runs, OwnFolder& folder, const Slurm
 void refuse_where_slurm_is_at_work(const fs::path& folder) {
   const auto entries = slurm::read_ledger(folder / ledger_name);
   if (entries.empty()) return;
+  if (!slurm::is_here()) return;  // a copy of the folder, on a machine without Slurm
   const auto queue = slurm::queue();
-  if (!queue) return;
+  if (!queue)
+    throw DeckFailure(
+        "error: runs of this folder were submitted to Slurm, which does not answer now, so that nobody knows whether "
+        "they are at work: give the command again once it does, or follow them with --engine slurm");
   for (const slurm::Entry& entry : entries)
     for (std::size_t task = 0; task < entry.jobs.size(); ++task)
       if (const auto seen = queue->find({entry.word, task}); seen != queue->end() && !seen->second.has_ended())

@@ -14,6 +14,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* own_columns[] = {"status", "elements",         "steps",      "time [s]",
+                                       "breaks", "wall_seconds [s]", "exit_reason"};
+
 // What the run says of itself; empty where it has not begun.
 Json summary_of(const BatchRun& run) { return bounded_object<Json>(run.folder / "summary.json"); }
 
@@ -58,11 +61,12 @@ std::vector<std::string> columns_of(const std::vector<BatchRun>& runs) {
 
 bool is_done(BatchRun& run) {
   const FormerRun former(run.folder);
-  if (!former.is_done()) return false;
+  if (!former.is_done() && !former.can_go_on(run.files)) return false;
   if (former.text("deck_sha256") != run.deck_sha256)
     throw DeckFailure(
         fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
                     run.folder.string()));
+  if (!former.is_done()) return false;
   run.outdated = !former.had(run.files);
   return !run.outdated;
 }
@@ -80,6 +84,14 @@ void note_row(BatchRun& run) {
              reason};
 }
 
+Results cells_of(const BatchRun& run) {
+  Results cells(run.values.begin(), run.values.end());
+  for (std::size_t k = 0; k < std::min(std::size(own_columns), run.row.size()); ++k)
+    cells.emplace_back(own_columns[k], run.row[k]);
+  cells.insert(cells.end(), run.results.begin(), run.results.end());
+  return cells;
+}
+
 ResultTable batch_table(const std::vector<BatchRun>& runs) {
   const std::vector<std::string> parameters = parameters_of(runs), columns = columns_of(runs);
   const auto value_in = [](const auto& pairs, const std::string& name) {
@@ -88,8 +100,7 @@ ResultTable batch_table(const std::vector<BatchRun>& runs) {
   };
   ResultTable table{{"run"}, {}};
   table.head.insert(table.head.end(), parameters.begin(), parameters.end());
-  for (const char* own : {"status", "elements", "steps", "time [s]", "breaks", "wall_seconds [s]", "exit_reason"})
-    table.head.emplace_back(own);
+  table.head.insert(table.head.end(), std::begin(own_columns), std::end(own_columns));
   table.head.insert(table.head.end(), columns.begin(), columns.end());
   for (const BatchRun& run : runs) {
     std::vector<std::string> row{run.name};

@@ -43,6 +43,7 @@ std::optional<Reading> parse_between(Reading::How how, const std::string& text, 
   const auto from = bounds ? parse_amount(bounds->before) : std::nullopt;
   const auto to = bounds ? parse_amount(bounds->behind) : std::nullopt;
   if (!columns || !from || !to || !(from->unit.dimension == to->unit.dimension)) return std::nullopt;
+  if (!(from->quantity().value < to->quantity().value)) return std::nullopt;
   return Reading{how, columns->before, columns->behind, *from, *to, false, {}};
 }
 
@@ -117,22 +118,38 @@ std::optional<double> value_at(const Points& points, double x) {
 
 std::optional<double> crossing(const Points& points, const Reading& reading) {
   const std::size_t top = points.largest();
-  const double threshold = reading.from.quantity().value * (reading.of_largest ? points.y[top] : 1);
+  const double sign = reading.of_largest && points.y[top] < 0 ? -1 : 1;  // of a force that presses
+  const double threshold = reading.from.quantity().value * (reading.of_largest ? std::abs(points.y[top]) : 1);
   const bool rises = reading.how == Reading::How::rises;
   for (std::size_t k = rises ? 0 : top; k < points.size(); ++k)
-    if (rises ? points.y[k] > threshold : points.y[k] < threshold) return points.x[k];
+    if (rises ? sign * points.y[k] > threshold : sign * points.y[k] < threshold) return points.x[k];
   return std::nullopt;
 }
 
-Points between(const Points& all, const Reading& reading) {
+/// The first way from one bound to the other, with both ends between rows; rows that go back are left out. Nothing if
+/// the curve does not come from the one to the other.
+std::optional<Points> between(const Points& all, const Reading& reading) {
   const double from = reading.from.quantity().value, to = reading.to.quantity().value;
   Points inside;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all.x[k] < from || all.x[k] > to) continue;
-    inside.x.push_back(all.x[k]);
-    inside.y.push_back(all.y[k]);
+    const bool is_begun = inside.size() > 0;
+    if (!is_begun && (k == 0 ? all.x[k] != from : all.x[k - 1] > from || all.x[k] < from)) continue;
+    if (!is_begun) {
+      inside.x.push_back(from);
+      inside.y.push_back(*value_at({{all.x[k ? k - 1 : 0], all.x[k]}, {all.y[k ? k - 1 : 0], all.y[k]}}, from));
+    }
+    if (all.x[k] >= to) {
+      const double last = *value_at({{all.x[k ? k - 1 : 0], all.x[k]}, {all.y[k ? k - 1 : 0], all.y[k]}}, to);
+      inside.x.push_back(to);
+      inside.y.push_back(last);
+      return inside;
+    }
+    if (all.x[k] > inside.x.back()) {
+      inside.x.push_back(all.x[k]);
+      inside.y.push_back(all.y[k]);
+    }
   }
-  return inside;
+  return std::nullopt;
 }
 
 std::optional<double> slope_of(const Points& points) {
@@ -166,10 +183,12 @@ std::optional<double> number_of(const Points& points, const Reading& reading) {
     case Reading::How::at: return value_at(points, reading.from.quantity().value);
     case Reading::How::rises:
     case Reading::How::falls: return crossing(points, reading);
-    case Reading::How::slope: return slope_of(between(points, reading));
-    case Reading::How::mean: return mean_of(between(points, reading));
+    case Reading::How::slope:
+    case Reading::How::mean: break;
   }
-  return std::nullopt;
+  const auto inside = between(points, reading);
+  if (!inside) return std::nullopt;
+  return reading.how == Reading::How::slope ? slope_of(*inside) : mean_of(*inside);
 }
 
 /// The columns that are x and y for `number_of`: where a place is read, the place is x.
@@ -198,20 +217,25 @@ std::optional<Reading> parse_reading(const std::string& text) {
   return reading;
 }
 
-std::optional<Quantity> read_from(const CurveTable& curve, const Reading& reading) {
+NumberRead read_from(const CurveTable& curve, const Reading& reading) {
   using How = Reading::How;
+  const auto not_there = [](std::string reason) {
+    return NumberRead{NumberRead::Why::not_there, {}, std::move(reason)};
+  };
+  for (const std::string& name : {reading.column, reading.against})
+    if (!name.empty() && !curve.find(name)) return not_there("there is no column '" + name + "'");
   const Columns columns = columns_of(curve, reading);
-  if (!columns.x || !columns.y) return std::nullopt;
   const bool on_x = reading.how == How::at || reading.how == How::slope || reading.how == How::mean;
   const bool on_y = (reading.how == How::rises || reading.how == How::falls) && !reading.of_largest;
-  if ((on_x && !fits(reading.from, *columns.x)) || (on_y && !fits(reading.from, *columns.y))) return std::nullopt;
+  if (const CurveValues* bounded = on_x ? columns.x : on_y ? columns.y : nullptr)
+    if (!fits(reading.from, *bounded)) return not_there("'" + bounded->name + "' is in " + bounded->unit);
   const Points points = points_of(*columns.x, *columns.y);
-  if (points.size() == 0) return std::nullopt;
+  if (points.size() == 0) return not_there("the columns have no row with both numbers");
   const auto value = number_of(points, reading);
-  if (!value) return std::nullopt;
+  if (!value) return {NumberRead::Why::not_reached, {}, "the curve does not come there"};
   const Dimension of_read = find_unit(curve.find(reading.column)->unit).value_or(Unit{}).dimension;
-  return Quantity{
-      *value, reading.how == How::slope ? of_read / find_unit(columns.x->unit).value_or(Unit{}).dimension : of_read};
+  const Dimension of_x = find_unit(columns.x->unit).value_or(Unit{}).dimension;
+  return {NumberRead::Why::read, {*value, reading.how == How::slope ? of_read / of_x : of_read}, {}};
 }
 
 }  // namespace beadwork

@@ -19,7 +19,7 @@ namespace beadwork {
 /// | `displacement where force rises above 90 percent of its largest` | likewise                                             |
 /// | `displacement where force falls below 5 percent of its largest`  | of the first row below behind the largest            |
 /// | `slope of force over displacement from 0 um to 0.03 um`       | of the straight line of least squares                   |
-/// | `mean force for displacement from 1 mm to 2 mm`               | of the rows between, weighted by the way between them   |
+/// | `mean force for displacement from 1 mm to 2 mm`               | weighted by the way between the rows   |
 struct Reading {
   enum class How { largest, last, at_largest, at, rises, falls, slope, mean };
   How how = How::largest;
@@ -30,12 +30,19 @@ struct Reading {
   std::string text;
 };
 
-/// Nothing if the text is no such phrase.
+/// Nothing if the text is no such phrase, or its bounds are not in ascending order.
 std::optional<Reading> parse_reading(const std::string& text);
 /// The phrases, for a complaint.
 extern const char* const reading_phrases;
 
-/// The number, in SI, with its dimension; nothing if the curve has no such column, or never comes there.
-std::optional<Quantity> read_from(const CurveTable& curve, const Reading& reading);
+/// A number in SI with its dimension, or why there is none.
+struct NumberRead {
+  enum class Why { read, not_there, not_reached };  ///< not_there: no such column, or of another kind
+  Why why = Why::read;
+  Quantity number;
+  std::string reason;  ///< in words, of what was not read
+};
+
+NumberRead read_from(const CurveTable& curve, const Reading& reading);
 
 }  // namespace beadwork

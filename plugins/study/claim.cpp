@@ -45,6 +45,8 @@ class Claim final : public Study {
       if (each->given() && !parse_amount(**each))
         complaints.error(each->at(), fmt::format("'{}' wants a number with its unit, such as 30 mN, got \"{}\"",
                                                  each->info().name, **each));
+    if (curve.given() && curve->find('/') != std::string::npos)
+      complaints.error(curve.at(), "'curve' wants the name of a curve, such as force, and no path");
     check_reading(read, complaints);
     check_reading(over, complaints);
     if (curve.given() && !read.given()) complaints.error(curve.at(), "'curve' wants 'read': what is read from it");

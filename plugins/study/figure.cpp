@@ -18,7 +18,11 @@ class Figure final : public Study {
   Param<bool> pictures{this,
                        {.name = "pictures", .doc = "Shows the pictures of the specimen", .one_of = "what is shown"}};
 
-  void check(Complaints& complaints) const override { sweeps::understand_clauses(where, complaints); }
+  void check(Complaints& complaints) const override {
+    sweeps::understand_clauses(where, complaints);
+    if (pictures.given() && !*pictures)
+      complaints.error(pictures.at(), "a figure without pictures shows a 'curve': name it instead");
+  }
   bool is_of_batch() const override { return true; }
   void add_to(BatchPlan& plan) const override {
     FigurePlan figure{*name, *says, {*of, {}, at()}, curve.given() ? *curve : ""};

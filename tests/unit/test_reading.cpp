@@ -17,8 +17,8 @@ CurveTable curve() {
 double read(const std::string& phrase) {
   const auto reading = parse_reading(phrase);
   EXPECT_TRUE(reading) << phrase;
-  const auto number = reading ? read_from(curve(), *reading) : std::nullopt;
-  return number ? number->value : NAN;
+  const NumberRead number = reading ? read_from(curve(), *reading) : NumberRead{};
+  return reading && number.why == NumberRead::Why::read ? number.number.value : NAN;
 }
 
 TEST(Reading, of_values) {
@@ -51,7 +51,7 @@ TEST(Reading, of_slopes_and_means_weights_by_the_way) {
 
 TEST(Reading, has_the_dimension_of_what_is_read) {
   const auto dimension = [](const std::string& phrase) {
-    return read_from(curve(), *parse_reading(phrase))->dimension.name();
+    return read_from(curve(), *parse_reading(phrase)).number.dimension.name();
   };
   EXPECT_EQ(dimension("largest force"), "N");
   EXPECT_EQ(dimension("displacement at the largest force"), "m");
@@ -64,13 +64,37 @@ TEST(Reading, of_what_is_not_there_gives_nothing) {
   EXPECT_TRUE(std::isnan(read("force at time 1 s")));
   EXPECT_TRUE(std::isnan(read("force at displacement 2 N")));  // a displacement is no force
   EXPECT_TRUE(std::isnan(read("displacement where force rises above 3 mm")));
-  EXPECT_FALSE(read_from(CurveTable{}, *parse_reading("largest force")));
+  const auto why = [](const std::string& phrase) { return read_from(curve(), *parse_reading(phrase)); };
+  EXPECT_EQ(read_from(CurveTable{}, *parse_reading("largest force")).reason, "there is no column 'force'");
+  EXPECT_EQ(why("force at displacement 2 N").reason, "'displacement' is in mm");
+  EXPECT_EQ(why("force at displacement 2 N").why, NumberRead::Why::not_there);
+  EXPECT_EQ(why("force at displacement 7 mm").why, NumberRead::Why::not_reached);
+}
+
+TEST(Reading, of_a_force_that_presses_takes_shares_of_its_size) {
+  const CurveTable pressed = parse_table("displacement [mm],force [N]\n0,0\n1,-4\n2,-8\n3,-12\n4,-6\n5,-0.5\n");
+  const auto place = [&](const std::string& phrase) { return read_from(pressed, *parse_reading(phrase)).number.value; };
+  EXPECT_EQ(place("displacement where force rises above 50 percent of its largest"), 2e-3);
+  EXPECT_EQ(place("displacement where force falls below 5 percent of its largest"), 5e-3);
+  EXPECT_EQ(place("largest force"), -12);
+}
+
+TEST(Reading, of_a_range_wants_all_of_it_and_takes_the_first_way_through) {
+  EXPECT_TRUE(std::isnan(read("mean force for displacement from 5 mm to 7 mm")));
+  EXPECT_DOUBLE_EQ(read("mean force for displacement from 0.5 mm to 1.5 mm"), 4);
+  const CurveTable cycle = parse_table("displacement [mm],force [N]\n0,0\n1,10\n2,20\n3,30\n2,2\n1,1\n0,0\n");
+  const auto of_cycle = [&](const std::string& phrase) {
+    return read_from(cycle, *parse_reading(phrase)).number.value;
+  };
+  EXPECT_NEAR(of_cycle("slope of force over displacement from 0 mm to 2 mm"), 1e4, 1e-8);
+  EXPECT_NEAR(of_cycle("mean force for displacement from 0 mm to 3 mm"), 15, 1e-12);
 }
 
 TEST(Reading, refuses_other_phrases) {
-  for (const char* wrong : {"", "force", "largest", "largest ", "biggest force", "force at 3", "slope of force",
-                            "slope of force over displacement from 0 mm to 3 N", "displacement where force is 3 N",
-                            "displacement where force rises above 3 N of its largest", "mean force"})
+  for (const char* wrong :
+       {"", "force", "largest", "largest ", "biggest force", "force at 3", "slope of force",
+        "slope of force over displacement from 0 mm to 3 N", "mean force for displacement from 3 mm to 1 mm",
+        "displacement where force is 3 N", "displacement where force rises above 3 N of its largest", "mean force"})
     EXPECT_FALSE(parse_reading(wrong)) << wrong;
 }
 

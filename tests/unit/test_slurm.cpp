@@ -93,7 +93,7 @@ TEST(SlurmQueue, why_a_job_has_ended_is_told_apart) {
 TEST(SlurmQueue, words_of_the_user_are_options_and_not_the_batch_s_own) {
   EXPECT_THAT(user_options({"--partition=long  --time=4:00:00", "-A mine"}),
               ElementsAre("--partition=long", "--time=4:00:00", "-A", "mine"));
-  for (const char* text : {"long", "--exclusive=user x", "--array=1", "--arr=1", "-a1", "--", "--dependency afterok:1"})
+  for (const char* text : {"long", "--exclusive=user x", "--array=1", "--arr=1", "-a1", "-HW", "--", "--dependency afterok:1"})
     EXPECT_THROW(user_options({text}), DeckFailure) << text;
 }
 

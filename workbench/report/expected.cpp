@@ -38,13 +38,14 @@ std::string band_of(const ClaimRow& claim) {
 
 std::string ours(const ClaimRow& claim) {
   const std::string mean = claim["mean"], scatter = claim["scatter"];
-  if (scatter.empty()) return mean;
-  return mean + " ± " + scatter + " (" + claim["runs"] + ")";
+  const std::string count = claim["of"] == "1" ? "" : " (" + claim["runs"] + " of " + claim["of"] + ")";
+  if (mean.empty()) return claim["remark"];
+  return mean + (scatter.empty() ? "" : " ± " + scatter) + count;
 }
 
 std::string verdict_of(const ClaimRow& claim) {
   const std::string verdict = claim["verdict"];
-  const char* badge = verdict == "in" ? "done" : verdict == "out" || verdict == "not met" ? "failed" : "other";
+  const char* badge = verdict == "in" ? "done" : verdict == "out" || verdict == "failed" ? "failed" : "other";
   return std::string("<span class=\"badge ") + badge + "\">" + escaped(verdict) + "</span>";
 }
 
@@ -68,7 +69,7 @@ std::string curves_in(const Json& figure, const fs::path& batch) {
   Overlay overlay;
   for (const std::string& run : runs_in(figure, batch)) overlay.add(batch / run, run.substr(run.find('/') + 1));
   const std::string chart = overlay.chart(text_of(figure, "curve"));
-  return chart.empty() ? "<p>None of its runs has this curve yet.</p>" : "<div class=\"charts\">" + chart + "</div>";
+  return chart.empty() ? "<p>None of its runs has this curve.</p>" : "<div class=\"charts\">" + chart + "</div>";
 }
 
 std::string pictures_in(const Json& figure, const fs::path& batch) {
@@ -76,9 +77,11 @@ std::string pictures_in(const Json& figure, const fs::path& batch) {
   for (const std::string& name : runs_in(figure, batch)) {
     Run run = open_run(batch / name);
     const std::string link = "<p><a href=\"" + escaped(name) + "/report.html\">" + escaped(name) + "</a></p>";
-    if (run.recorded) out += link + still_pictures(run, chosen(run.recorded->frames()));
+    if (!run.recorded || run.recorded->frames().empty()) continue;
+    if (const std::string stills = still_pictures(run, chosen(run.recorded->frames())); !stills.empty())
+      out += link + stills;
   }
-  return out.empty() ? "<p>None of its runs has pictures yet.</p>" : out;
+  return out.empty() ? "<p>None of its runs has pictures.</p>" : out;
 }
 
 std::string figure_in(const Json& figure, const fs::path& batch) {
@@ -96,6 +99,7 @@ std::string claims_of(const fs::path& batch) {
   std::error_code error;
   if (!fs::is_regular_file(batch / "claims.csv", error)) return "";
   const std::vector<Row> rows = quoted_rows(batch / "claims.csv");
+  if (rows.size() < 2) return "";
   std::string body;
   for (std::size_t r = 1; r < rows.size(); ++r) {
     const ClaimRow claim(rows.front(), rows[r]);

@@ -98,6 +98,8 @@ std::map<Place, Seen> queue_in(const std::string& text) {
   return all;
 }
 
+bool is_here() { return ask({"squeue", "--version"}).code != 127; }
+
 std::optional<std::map<Place, Seen>> queue() {
   const Answer answer = ask({"squeue", "--noheader", "--array", "--states=all", "--user=" + std::to_string(::getuid()),
                              "--format=%k|%K|%T|%F|%r"});
@@ -156,6 +158,11 @@ std::vector<std::string> user_options(const std::vector<std::string>& texts) {
             fmt::format("error: --sbatch wants options of sbatch, such as '--partition=long --time=4:00:00', got "
                         "\"{}\"",
                         text));
+      if (is_option && word.size() > 2 && word[1] != '-')
+        throw DeckFailure(fmt::format(
+            "error: --sbatch takes long options, or a letter with its value behind a blank, not {}: one letter may "
+            "stand for several",
+            word));
       if (is_option && is_own(word))
         throw DeckFailure(fmt::format("error: --sbatch may not give {}: the batch itself says so to sbatch", word));
       takes_value = is_option && word.find('=') == std::string::npos;

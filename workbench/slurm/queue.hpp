@@ -33,6 +33,8 @@ Limits limits();
 /// The same of what `scontrol show config` says.
 Limits limits_in(const std::string& config);
 
+/// Whether this machine has Slurm's programs at all.
+bool is_here();
 /// All tasks of this user that it still knows of, those of the last minutes that have ended among them; nothing if it
 /// does not answer now.
 std::optional<std::map<Place, Seen>> queue();

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "core/base/failure.hpp"
@@ -14,14 +16,13 @@ namespace beadwork::slurm {
 
 namespace {
 
-// A failing run may say a lot; its run.log has all of it.
+// A failing run may say a lot: the end of it.
 std::string log_text(const std::filesystem::path& log) {
-  constexpr std::uintmax_t most = 1 << 20;
-  try {
-    return read_text(log, most);
-  } catch (const MachineFailure&) {
-    return "";
-  }
+  constexpr std::streamoff most = 1 << 20;
+  std::ifstream file(log, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : 0;
+  file.seekg(std::max<std::streamoff>(0, size - most));
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 }  // namespace
@@ -108,6 +109,7 @@ void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
   if (found != queue.end() && found->second.is_waiting()) {
     own.share = 0;  // perhaps once more
     own.began = false;
+    own.odd_since.reset();
     note_held(job, found->second);
     return;
   }
@@ -120,6 +122,7 @@ void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
   } else if (found->second.has_ended()) {
     settle(job, found->second.state, found->second.reason, note);
   } else if (found->second.is_running()) {
+    own.odd_since.reset();
     note_begun(job, note);
   }
 }
@@ -157,6 +160,7 @@ void SlurmJobs::settle(std::size_t job, const std::string& state, const std::str
     own.may_begin = turn == Turn::now;
     if (turn == Turn::never) return leave(own);
   }
+  if (!has_note && events_->was_done_elsewhere(job)) return leave(own);
   const bool by_itself = state == "COMPLETED" || state == "FAILED" || state.empty();
   JobEnd ending = has_note ? *note->end : JobEnd{static_cast<int>(ExitCode::machine), told(state, reason)};
   if (has_note && !by_itself) ending.by = told(state, reason);
