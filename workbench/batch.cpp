@@ -105,7 +105,9 @@ Batch batch_of(const BatchArguments& arguments) {
 }
 
 void attend_here(std::vector<BatchRun>& runs, OwnFolder& folder, int at_once, const Words& words) {
-  refuse_where_slurm_is_at_work(folder.root());
+  const bool begins_some =
+      std::any_of(runs.begin(), runs.end(), [](const BatchRun& r) { return !r.done && !r.refused; });
+  if (begins_some) refuse_where_slurm_is_at_work(folder.root());
   heed_signals();
   LocalJobs driver(at_once, Voice::heard, &interrupted);
   attend(runs, folder, driver, command_of);

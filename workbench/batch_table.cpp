@@ -61,12 +61,11 @@ std::vector<std::string> columns_of(const std::vector<BatchRun>& runs) {
 
 bool is_done(BatchRun& run) {
   const FormerRun former(run.folder);
-  if (!former.is_done() && !former.can_go_on(run.files)) return false;
+  if (!former.is_done()) return false;
   if (former.text("deck_sha256") != run.deck_sha256)
     throw DeckFailure(
         fmt::format("error: '{}' holds a run of another deck or with other values: choose another --out, or remove it",
                     run.folder.string()));
-  if (!former.is_done()) return false;
   run.outdated = !former.had(run.files);
   return !run.outdated;
 }
