@@ -48,6 +48,7 @@ void attend_in_slurm(std::vector<BatchRun>& runs, OwnFolder& folder, const Slurm
   heed_signals();
   const fs::path ledger = fs::absolute(folder.claim(ledger_name)), desk = fs::absolute(folder.claim(desk_name));
   fs::create_directories(desk);
+  slurm::Controller controller;
   slurm::SlurmJobs driver({.at_once = wish.jobs,
                            .threads = wish.threads,
                            .sbatch = wish.sbatch,
@@ -55,10 +56,12 @@ void attend_in_slurm(std::vector<BatchRun>& runs, OwnFolder& folder, const Slurm
                            .ledger = ledger,
                            .desk = desk,
                            .interrupt = &interrupted,
-                           .say = [](const std::string& line) {
-                             say("{}\n", line);
-                             std::fflush(stdout);
-                           }});
+                           .say =
+                               [](const std::string& line) {
+                                 say("{}\n", line);
+                                 std::fflush(stdout);
+                               }},
+                          controller);
   attend(runs, folder, driver, [&runs](const BatchRun& run) { return command_in_slurm(run, runs); });
   tell_what_goes_on(driver, wish.words);
 }
@@ -67,7 +70,7 @@ void refuse_where_slurm_is_at_work(const fs::path& folder) {
   const auto entries = slurm::read_ledger(folder / ledger_name);
   if (entries.empty()) return;
   if (!slurm::is_here()) return;  // a copy of the folder, on a machine without Slurm
-  const auto queue = slurm::queue();
+  const auto queue = slurm::Controller().queue();
   if (!queue)
     throw DeckFailure(
         "error: runs of this folder were submitted to Slurm, which does not answer now, so that nobody knows whether "

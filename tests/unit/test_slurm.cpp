@@ -7,12 +7,14 @@
 #include "workbench/slurm/note.hpp"
 #include "workbench/slurm/pieces.hpp"
 #include "workbench/slurm/queue.hpp"
+#include "workbench/slurm/slurm_jobs.hpp"
 #include "workbench/slurm/tool.hpp"
 
 using namespace beadwork;
 using namespace beadwork::slurm;
 using beadwork::testing::Scratch;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 namespace {
@@ -93,7 +95,8 @@ TEST(SlurmQueue, why_a_job_has_ended_is_told_apart) {
 TEST(SlurmQueue, words_of_the_user_are_options_and_not_the_batch_s_own) {
   EXPECT_THAT(user_options({"--partition=long  --time=4:00:00", "-A mine"}),
               ElementsAre("--partition=long", "--time=4:00:00", "-A", "mine"));
-  for (const char* text : {"long", "--exclusive=user x", "--array=1", "--arr=1", "-a1", "-HW", "--", "--dependency afterok:1"})
+  for (const char* text :
+       {"long", "--exclusive=user x", "--array=1", "--arr=1", "-a1", "-HW", "--", "--dependency afterok:1"})
     EXPECT_THROW(user_options({text}), DeckFailure) << text;
 }
 
@@ -119,18 +122,134 @@ TEST(SlurmLedger, what_was_meant_to_be_submitted_is_found_again) {
   {
     Ledger ledger(file);
     word = ledger.intend({"a/E=1", "b"});
-    ledger.submitted(word, "17");
     ledger.intend({"c"});
   }
   const auto entries = read_ledger(file);
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[0].word, word);
   EXPECT_THAT(entries[0].jobs, ElementsAre("a/E=1", "b"));
-  EXPECT_EQ(entries[0].number, "17");
-  EXPECT_EQ(entries[1].number, "");
+  EXPECT_NE(entries[1].word, word);
   Ledger again(file);
   again.clear();
   EXPECT_THAT(read_ledger(file), IsEmpty());
+}
+
+TEST(SlurmLedger, is_one_command_s_at_a_time) {
+  const Scratch scratch;
+  const auto file = scratch.path() / "batch.jobs";
+  const Ledger first(file);
+  try {
+    Ledger second(file, std::chrono::milliseconds(50));
+    FAIL() << "two commands would submit the same jobs";
+  } catch (const DeckFailure& failure) {
+    EXPECT_THAT(failure.what(), HasSubstr("another command follows the jobs of " + scratch.path().string()));
+  }
+}
+
+TEST(SlurmQueue, no_answer_is_no_refusal) {
+  for (const char* text : {"sbatch: error: Batch job submission failed: Unable to contact slurm controller",
+                           "sbatch: error: Batch job submission failed: Socket timed out on send/recv operation"})
+    EXPECT_TRUE(refusal_in(text).is_unsure) << text;
+  const Submission full =
+      refusal_in("sbatch: error: Batch job submission failed: Job violates accounting/QOS policy\n");
+  EXPECT_TRUE(full.is_limit);
+  EXPECT_FALSE(full.is_unsure);
+  const Submission wrong = refusal_in("sbatch: error: invalid partition specified: none");
+  EXPECT_FALSE(wrong.is_limit || wrong.is_unsure);
+}
+
+/// A queue in memory. What is in it ends when it is looked at.
+class Queue : public Controller {
+ public:
+  explicit Queue(const Scratch& scratch) : desk(scratch.path()) {}
+  Limits limits() override { return {}; }
+  std::optional<std::map<Place, Seen>> queue() override {
+    for (auto& [place, seen] : tasks) {
+      if (seen.state == "COMPLETED") continue;
+      seen.state = "COMPLETED";
+      write_note(desk / (seen.array + "_" + std::to_string(place.second) + ".note"), {1, JobEnd{0, "exit code 0"}});
+    }
+    return tasks;
+  }
+  std::string state_of_gone(const std::string&, std::size_t) override { return ""; }
+  Submission submit(const std::vector<std::string>& options, const std::string&, int) override {
+    std::string word;
+    std::size_t count = 0;
+    for (const std::string& option : options) {
+      if (option.starts_with("--comment=")) word = option.substr(10);
+      if (option.starts_with("--array=0-")) count = std::stoul(option.substr(10)) + 1;
+    }
+    ++asked;
+    if (count > room()) return {"", "Job violates accounting/QOS policy", true, false};
+    const std::string number = std::to_string(100 + asked);
+    for (std::size_t task = 0; task < count; ++task) tasks[{word, task}] = {"PENDING", "", number};
+    if (answers_lost-- > 0) return {"", "Socket timed out", false, true};
+    return {number, "", false, false};
+  }
+  std::size_t room() const {
+    std::size_t at_work = 0;
+    for (const auto& [place, seen] : tasks) at_work += seen.state != "COMPLETED";
+    return holds - std::min(holds, at_work);
+  }
+  std::filesystem::path desk;
+  std::map<Place, Seen> tasks;
+  std::size_t holds = 1000;
+  int asked = 0, answers_lost = 0;
+};
+
+struct Ends : JobEvents {
+  explicit Ends(const Queue& of) : queue(of) {}
+  void ended(std::size_t job, const JobEnd& end) override {
+    ++times[job];
+    codes += end.code;
+  }
+  bool was_done_elsewhere(std::size_t job) override {
+    for (const auto& [place, seen] : queue.tasks)
+      if (place.second == job && seen.state == "COMPLETED") return done.insert(job), true;
+    return false;
+  }
+  const Queue& queue;
+  std::map<std::size_t, int> times;
+  std::set<std::size_t> done;
+  int codes = 0;
+};
+
+/// So many jobs through a queue; how each ended.
+Ends through(Queue& queue, const Scratch& scratch, std::size_t count) {
+  using std::chrono::milliseconds;
+  SlurmJobs driver({.sbatch = {},
+                    .ledger = scratch.path() / "batch.jobs",
+                    .desk = scratch.path(),
+                    .shortest_rest = milliseconds(5),
+                    .answers_within = milliseconds(20)},
+                   queue);
+  std::vector<Job> jobs;
+  for (std::size_t k = 0; k < count; ++k)
+    jobs.push_back({"job-" + std::to_string(k), scratch.path() / std::to_string(k), {"true"}});
+  Ends ends(queue);
+  driver.run(jobs, ends);
+  return ends;
+}
+
+TEST(SlurmJobs, each_is_submitted_once_though_an_answer_is_lost) {
+  const Scratch scratch;
+  Queue queue(scratch);
+  queue.answers_lost = 1;
+  const Ends ends = through(queue, scratch, 5);
+  EXPECT_EQ(ends.times.size() + ends.done.size(), 5u);
+  EXPECT_EQ(queue.tasks.size(), 5u) << "the first submission was taken, though nobody said so";
+}
+
+TEST(SlurmJobs, a_full_queue_is_asked_again_only_for_what_has_ended) {
+  const Scratch scratch;
+  Queue queue(scratch);
+  queue.holds = 4;
+  const Ends ends = through(queue, scratch, 64);
+  EXPECT_EQ(ends.times.size(), 64u);
+  EXPECT_EQ(ends.codes, 0);
+  for (const auto& [job, times] : ends.times) EXPECT_EQ(times, 1) << job;
+  EXPECT_EQ(queue.tasks.size(), 64u);
+  EXPECT_LE(queue.asked, 4 + 64 / 4 + 4) << "halved down to the room there is, then as many at a time as end";
 }
 
 TEST(SlurmNote, an_end_is_read_as_it_was_written) {

@@ -7,7 +7,9 @@
 
 #include <cerrno>
 #include <random>
+#include <thread>
 
+#include "core/base/failure.hpp"
 #include "core/base/text.hpp"
 
 namespace beadwork::slurm {
@@ -21,8 +23,7 @@ std::string new_word() {
 
 }  // namespace
 
-// A line each: "jobs", the word and the names, and, once it is submitted, "number", the word and the number; tabs in
-// between, which no name has.
+// A line each: "jobs", the word and the names; tabs in between, which no name has.
 std::vector<Entry> read_ledger(const std::filesystem::path& file) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 30;
   std::vector<Entry> entries;
@@ -31,18 +32,21 @@ std::vector<Entry> read_ledger(const std::filesystem::path& file) {
   for (const std::string& line : split(read_text(file, most), '\n')) {
     const std::vector<std::string> pieces = split(line, '\t');
     if (pieces.size() < 3) continue;
-    if (pieces[0] == "jobs") entries.push_back({pieces[1], {pieces.begin() + 2, pieces.end()}, ""});
-    if (pieces[0] == "number")
-      for (Entry& entry : entries)
-        if (entry.word == pieces[1]) entry.number = pieces[2];
+    if (pieces[0] == "jobs") entries.push_back({pieces[1], {pieces.begin() + 2, pieces.end()}});
   }
   return entries;
 }
 
-Ledger::Ledger(const std::filesystem::path& file)
+Ledger::Ledger(const std::filesystem::path& file, std::chrono::milliseconds patience)
     : file_(file), open_(::open(file.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666)) {
   if (!open_) throw file_failure("write", file, errno);
-  while (::flock(open_.number(), LOCK_EX) != 0 && errno == EINTR) {
+  using Clock = std::chrono::steady_clock;
+  for (const auto until = Clock::now() + patience; ::flock(open_.number(), LOCK_EX | LOCK_NB) != 0;) {
+    if (Clock::now() >= until)
+      throw DeckFailure(fmt::format(
+          "error: another command follows the jobs of {}: wait for it, or end it with Ctrl-C, by which the jobs go on",
+          file.parent_path().string()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   entries_ = read_ledger(file);
 }
@@ -56,16 +60,10 @@ void Ledger::append(const std::string& line) {
 }
 
 std::string Ledger::intend(const std::vector<std::string>& jobs) {
-  Entry entry{new_word(), jobs, ""};
+  Entry entry{new_word(), jobs};
   append("jobs\t" + entry.word + "\t" + join(jobs, "\t"));
   entries_.push_back(entry);
   return entry.word;
-}
-
-void Ledger::submitted(const std::string& word, const std::string& number) {
-  append("number\t" + word + "\t" + number);
-  for (Entry& entry : entries_)
-    if (entry.word == word) entry.number = number;
 }
 
 void Ledger::clear() {

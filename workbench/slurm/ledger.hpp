@@ -1,6 +1,7 @@
 #pragma once
 // What has been submitted, kept in a file, so that whoever comes after the one who submitted it finds it again.
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,7 +16,6 @@ namespace beadwork::slurm {
 struct Entry {
   std::string word;
   std::vector<std::string> jobs;  ///< names, by their tasks
-  std::string number;             ///< of the job, once sbatch has told it
 };
 
 /// The entries of such a file; nothing if there is none. A line that a kill has torn is left out.
@@ -23,12 +23,12 @@ std::vector<Entry> read_ledger(const std::filesystem::path& file);
 
 class Ledger {
  public:
-  /// Makes or opens it, and waits for an sbatch that one who was killed has left at work.
-  explicit Ledger(const std::filesystem::path& file);
+  /// Makes or opens it, and waits for an sbatch that one who was killed has left at work. DeckFailure if another has it
+  /// open all that time: who follows these jobs already.
+  explicit Ledger(const std::filesystem::path& file, std::chrono::milliseconds patience = std::chrono::seconds(30));
   const std::vector<Entry>& entries() const { return entries_; }
   /// A word of its own for an array of these; it is on the disk now.
   std::string intend(const std::vector<std::string>& jobs);
-  void submitted(const std::string& word, const std::string& number);
   /// Nothing of what it holds is in the queue any more.
   void clear();
   /// To be held open by what submits.

@@ -78,12 +78,12 @@ Limits limits_in(const std::string& config) {
   return limits;
 }
 
-Limits limits() {
+Limits Controller::limits() {
   const Answer answer = ask({"scontrol", "show", "config"});
   if (answer.code != 0) throw no_slurm("scontrol", answer);
-  const Limits limits = limits_in(answer.out);
-  if (limits.tasks == 0) throw MachineFailure("error: this Slurm takes no arrays of jobs: its MaxArraySize is 0");
-  return limits;
+  const Limits found = limits_in(answer.out);
+  if (found.tasks == 0) throw MachineFailure("error: this Slurm takes no arrays of jobs: its MaxArraySize is 0");
+  return found;
 }
 
 std::map<Place, Seen> queue_in(const std::string& text) {
@@ -100,14 +100,14 @@ std::map<Place, Seen> queue_in(const std::string& text) {
 
 bool is_here() { return ask({"squeue", "--version"}).code != 127; }
 
-std::optional<std::map<Place, Seen>> queue() {
+std::optional<std::map<Place, Seen>> Controller::queue() {
   const Answer answer = ask({"squeue", "--noheader", "--array", "--states=all", "--user=" + std::to_string(::getuid()),
                              "--format=%k|%K|%T|%F|%r"});
   if (answer.code != 0) return std::nullopt;
   return queue_in(answer.out);
 }
 
-std::string state_of_gone(const std::string& array, std::size_t task) {
+std::string Controller::state_of_gone(const std::string& array, std::size_t task) {
   const std::string name = fmt::format("{}_{}", array, task);
   const Answer account = ask({"sacct", "-X", "-n", "-P", "-j", name, "-o", "State"});
   if (account.code == 0 && !trim(account.out).empty()) return std::string(first_word(trim(account.out)));
@@ -131,19 +131,26 @@ std::string told(const std::string& state, const std::string& reason) {
   return fmt::format("Slurm: {} ({})", state, reason);
 }
 
-Submission submit(const std::vector<std::string>& options, const std::string& script, int kept) {
+Submission refusal_in(const std::string& text) {
+  const auto says = [&](const char* sign) { return text.find(sign) != std::string::npos; };
+  Submission refused{"", std::string(trim(text)), false, false};
+  for (const char* sign : {"QOS policy", "SubmitJob", "temporarily unable", "too long"})
+    if (says(sign)) refused.is_limit = true;
+  for (const char* sign : {"Unable to contact", "timed out", "Connection refused", "Connection reset"})
+    if (says(sign)) refused.is_unsure = true;
+  return refused;
+}
+
+Submission Controller::submit(const std::vector<std::string>& options, const std::string& script, int kept) {
   std::vector<std::string> command{"sbatch", "--parsable"};
   command.insert(command.end(), options.begin(), options.end());
   const Answer answer = ask(command, script, kept);
   if (answer.code == 127) throw no_slurm("sbatch", answer);
   if (answer.code == 0) {  // "17", or "17;cluster"
     const std::string job(trim(answer.out.substr(0, answer.out.find(';'))));
-    if (whole_number(job)) return {job, "", false};
+    if (whole_number(job)) return {job, "", false, false};
   }
-  Submission refused{"", std::string(trim(answer.error)), false};
-  for (const char* sign : {"QOS policy", "SubmitJob", "temporarily unable", "too long"})
-    if (refused.refusal.find(sign) != std::string::npos) refused.is_limit = true;
-  return refused;
+  return refusal_in(answer.error);
 }
 
 std::vector<std::string> user_options(const std::vector<std::string>& texts) {

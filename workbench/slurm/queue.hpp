@@ -28,32 +28,40 @@ struct Limits {
   std::size_t bytes = 3000000;  ///< of its script
 };
 
-/// MachineFailure where there is no Slurm, or none that answers.
-Limits limits();
-/// The same of what `scontrol show config` says.
+/// Of what `scontrol show config` says.
 Limits limits_in(const std::string& config);
 
 /// Whether this machine has Slurm's programs at all.
 bool is_here();
-/// All tasks of this user that it still knows of, those of the last minutes that have ended among them; nothing if it
-/// does not answer now.
-std::optional<std::map<Place, Seen>> queue();
-/// The same of what squeue says.
+/// Of what squeue says.
 std::map<Place, Seen> queue_in(const std::string& text);
-
-/// State of a task that is in the queue no more, "" where nobody knows.
-std::string state_of_gone(const std::string& array, std::size_t task);
 
 /// What a state of a job that has ended means for its user: "Slurm: TIMEOUT, it took longer than it was given".
 std::string told(const std::string& state, const std::string& reason = "");
 
 struct Submission {
-  std::string job;        ///< number; "" if it was refused
-  std::string refusal;    ///< what sbatch said
-  bool is_limit = false;  ///< less would be taken, or the same later
+  std::string job;         ///< number; "" if it was refused
+  std::string refusal;     ///< what sbatch said
+  bool is_limit = false;   ///< less would be taken, or the same later
+  bool is_unsure = false;  ///< no answer came: it may have been taken all the same
 };
-/// MachineFailure where there is no sbatch. `kept` as for `ask`.
-Submission submit(const std::vector<std::string>& options, const std::string& script, int kept);
+/// Of what sbatch says where it did not succeed.
+Submission refusal_in(const std::string& text);
+
+/// Slurm's controller, asked by its programs.
+class Controller {
+ public:
+  virtual ~Controller() = default;
+  /// MachineFailure where there is no Slurm, or none that answers.
+  virtual Limits limits();
+  /// All tasks of this user that it still knows of, those of the last minutes that have ended among them; nothing if it
+  /// does not answer now.
+  virtual std::optional<std::map<Place, Seen>> queue();
+  /// State of a task that is in the queue no more, "" where nobody knows.
+  virtual std::string state_of_gone(const std::string& array, std::size_t task);
+  /// MachineFailure where there is no sbatch. `kept` as for `ask`.
+  virtual Submission submit(const std::vector<std::string>& options, const std::string& script, int kept);
+};
 
 /// Words for sbatch from what the user gives for it, "--partition=long --time=4:00:00". DeckFailure for what is no
 /// option, and for options that are the batch's own.

@@ -27,7 +27,8 @@ std::string log_text(const std::filesystem::path& log) {
 
 }  // namespace
 
-SlurmJobs::SlurmJobs(Options options) : options_(std::move(options)), ledger_(options_.ledger) {}
+SlurmJobs::SlurmJobs(Options options, Controller& controller)
+    : options_(std::move(options)), controller_(controller), ledger_(options_.ledger) {}
 
 std::size_t SlurmJobs::count(At at) const {
   return static_cast<std::size_t>(
@@ -50,7 +51,7 @@ void SlurmJobs::run(const std::vector<Job>& jobs, JobEvents& events) {
   events_ = &events;
   own_.assign(jobs.size(), Own{});
   if (jobs.empty()) return;
-  limits_ = limits();
+  limits_ = controller_.limits();
   take_up();
   while (!is_interrupted()) {
     submit_what_can();
@@ -63,27 +64,34 @@ void SlurmJobs::run(const std::vector<Job>& jobs, JobEvents& events) {
 // What has been submitted before and has not ended.
 void SlurmJobs::take_up() {
   if (ledger_.entries().empty()) return;
-  const auto there = queue();
+  const auto there = controller_.queue();
   if (!there) throw MachineFailure("error: Slurm does not tell what is in its queue; give the same command again");
-  std::map<std::string, std::size_t> names;
-  for (std::size_t k = 0; k < jobs_->size(); ++k) names[(*jobs_)[k].name] = k;
-  bool any = false;
-  for (const Entry& entry : ledger_.entries()) any = take_up(entry, *there, names) || any;
-  if (!any) ledger_.clear();
+  if (!take_up(*there)) ledger_.clear();
   if (with_slurm() > 0) options_.say(fmt::format("{} of them are in Slurm's queue already", with_slurm()));
 }
 
-/// Whether any of it is in the queue, be it of these jobs or of others that were submitted from here.
-bool SlurmJobs::take_up(const Entry& entry, const std::map<Place, Seen>& queue,
-                        const std::map<std::string, std::size_t>& names) {
+/// Whether anything that was submitted from here is in the queue, be it of these jobs or of others.
+bool SlurmJobs::take_up(const Queue& queue) {
+  std::map<std::string, std::size_t> names;
+  for (std::size_t k = 0; k < jobs_->size(); ++k) names[(*jobs_)[k].name] = k;
+  bool any = false;
+  for (const Entry& entry : ledger_.entries()) any = take_up(entry, queue, names) || any;
+  return any;
+}
+
+bool SlurmJobs::take_up(const Entry& entry, const Queue& queue, const std::map<std::string, std::size_t>& names) {
   bool any = false;
   for (std::size_t task = 0; task < entry.jobs.size(); ++task) {
     const auto seen = queue.find({entry.word, task});
-    if (seen == queue.end() || seen->second.has_ended()) continue;
-    any = true;
+    const bool is_there = seen != queue.end() && !seen->second.has_ended();
+    any = any || is_there;
     const auto known = names.find(entry.jobs[task]);
-    if (known == names.end()) continue;
+    if (known == names.end() || own_[known->second].at != At::start) continue;
     Own& own = own_[known->second];
+    if (!is_there) {  // it may have ended since it was found not to be done
+      if (events_->was_done_elsewhere(known->second)) own.at = At::over;
+      continue;
+    }
     own.at = At::queued;
     own.place = {entry.word, task};
     own.array = seen->second.array;
@@ -92,18 +100,22 @@ bool SlurmJobs::take_up(const Entry& entry, const std::map<Place, Seen>& queue,
 }
 
 void SlurmJobs::look() {
-  const auto there = queue();
+  const auto there = controller_.queue();
   if (!there) {
     if (!silence_was_told_) options_.say("Slurm does not answer; its jobs go on, and it is asked again");
     silence_was_told_ = true;
     return;
   }
   silence_was_told_ = false;
+  if (unsure_since_ && Clock::now() - *unsure_since_ >= options_.answers_within) {
+    take_up(*there);
+    unsure_since_.reset();
+  }
   for (std::size_t k = 0; k < own_.size(); ++k)
     if (own_[k].at == At::queued) look_at(k, *there);
 }
 
-void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
+void SlurmJobs::look_at(std::size_t job, const Queue& queue) {
   Own& own = own_[job];
   const auto found = queue.find(own.place);
   if (found != queue.end() && found->second.is_waiting()) {
@@ -118,7 +130,7 @@ void SlurmJobs::look_at(std::size_t job, const std::map<Place, Seen>& queue) {
     note_begun(job, note);
     end(job, *note->end);
   } else if (found == queue.end()) {
-    settle(job, state_of_gone(own.array, task(own)), "", note);
+    settle(job, controller_.state_of_gone(own.array, task(own)), "", note);
   } else if (found->second.has_ended()) {
     settle(job, found->second.state, found->second.reason, note);
   } else if (found->second.is_running()) {
@@ -179,7 +191,7 @@ void SlurmJobs::end(std::size_t job, JobEnd ending) {
 
 void SlurmJobs::leave(Own& own, bool with_log) {
   own.at = At::over;
-  is_full_ = false;
+  if (room_) ++*room_;
   std::error_code gone_already;
   std::filesystem::remove(file_of(own, "note"), gone_already);
   if (with_log) std::filesystem::remove(file_of(own, "log"), gone_already);
@@ -188,15 +200,16 @@ void SlurmJobs::leave(Own& own, bool with_log) {
 // The longer it goes on, the less often Slurm is asked: its controller serves many.
 void SlurmJobs::rest() {
   using std::chrono::duration_cast, std::chrono::milliseconds;
-  constexpr milliseconds shortest{1000}, longest{20000}, slice{100};
-  const milliseconds pause = std::clamp(duration_cast<milliseconds>(Clock::now() - began_) / 20, shortest, longest);
+  constexpr milliseconds longest{20000}, slice{100};
+  const milliseconds pause =
+      std::clamp(duration_cast<milliseconds>(Clock::now() - began_) / 20, options_.shortest_rest, longest);
   const auto until = Clock::now() + pause;
   std::vector<JobShare> shares;
   for (std::size_t k = 0; k < own_.size(); ++k)
     if (own_[k].at == At::queued && own_[k].began) shares.push_back({k, own_[k].share});
   while (!is_interrupted() && Clock::now() < until) {
     events_->at_work(shares);
-    std::this_thread::sleep_for(slice);
+    std::this_thread::sleep_for(std::min(slice, options_.shortest_rest));
   }
 }
 

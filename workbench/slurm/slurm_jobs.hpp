@@ -28,6 +28,9 @@ struct Options {
   std::filesystem::path ledger;     ///< file of what has been submitted
   std::filesystem::path desk;       ///< folder for what jobs leave and say
   const std::atomic<int>* interrupt = nullptr;
+  std::chrono::milliseconds shortest_rest{1000};  ///< between two looks at the queue
+  /// What Slurm was asked to take, and did not answer, is in its queue after so long or not at all.
+  std::chrono::milliseconds answers_within{30000};
   std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
@@ -36,7 +39,7 @@ struct Options {
 /// to Slurm.
 class SlurmJobs final : public JobDriver {
  public:
-  explicit SlurmJobs(Options options);
+  SlurmJobs(Options options, Controller& controller);
   void run(const std::vector<Job>& jobs, JobEvents& events) override;
 
   /// Numbers of the jobs that go on.
@@ -63,21 +66,24 @@ class SlurmJobs final : public JobDriver {
   std::size_t task(const Own& own) const { return own.place.second; }
   std::filesystem::path file_of(const Own& own, const char* ending) const;
 
+  using Queue = std::map<Place, Seen>;
   void take_up();
-  bool take_up(const Entry& entry, const std::map<Place, Seen>& queue, const std::map<std::string, std::size_t>& names);
+  bool take_up(const Queue& queue);
+  bool take_up(const Entry& entry, const Queue& queue, const std::map<std::string, std::size_t>& names);
+  bool may_submit() const { return !(room_ && *room_ == 0) && !unsure_since_ && !is_interrupted(); }
 
   void submit_what_can();
   std::vector<Wanted> wanted(bool& dropped);
   bool submit(const std::vector<Wanted>& wanted);
   std::string submit_some(Piece piece, const std::vector<std::string>& behind);
-  std::string submit_piece(const Piece& piece, const std::vector<std::string>& behind, std::string& refusal);
+  Submission submit_piece(const Piece& piece, const std::vector<std::string>& behind);
   std::vector<std::string> options_of(const Piece& piece, const std::vector<std::string>& behind,
                                       const std::string& word) const;
   std::string dependency_of(const Piece& piece, const std::vector<std::string>& behind) const;
   std::string script_of(const Piece& piece) const;
 
   void look();
-  void look_at(std::size_t job, const std::map<Place, Seen>& queue);
+  void look_at(std::size_t job, const Queue& queue);
   void note_begun(std::size_t job, const std::optional<Note>& note);
   void note_held(std::size_t job, const Seen& seen);
   void settle(std::size_t job, const std::string& state, const std::string& reason, const std::optional<Note>& note);
@@ -87,12 +93,14 @@ class SlurmJobs final : public JobDriver {
   void rest();
 
   Options options_;
+  Controller& controller_;
   Ledger ledger_;
   Limits limits_;
   const std::vector<Job>* jobs_ = nullptr;
   JobEvents* events_ = nullptr;
   std::vector<Own> own_;
-  bool is_full_ = false;  ///< Slurm takes no more until some have ended
+  std::optional<std::size_t> room_;                ///< once Slurm took no more: how many have ended since
+  std::optional<Clock::time_point> unsure_since_;  ///< it was asked to take some, and did not answer
   bool full_was_told_ = false, silence_was_told_ = false;
   std::set<std::string> held_told_;
   Clock::time_point began_ = Clock::now();

@@ -22,7 +22,8 @@ std::string line_of(const std::vector<std::string>& command) {
 
 // Arrays of those that need nothing, then of those that need these, and so on; Slurm has the later ones wait.
 void SlurmJobs::submit_what_can() {
-  while (!is_full_ && !is_interrupted()) {
+  if (with_slurm() == 0 && room_ == 0) room_.reset();  // there is nothing whose end could be waited for
+  while (may_submit()) {
     bool dropped = false;
     const std::vector<Wanted> some = wanted(dropped);
     if (some.empty() && !dropped) return;
@@ -59,13 +60,14 @@ bool SlurmJobs::submit(const std::vector<Wanted>& wanted) {
   std::vector<std::size_t> others;
   for (std::size_t k = 0; k < own_.size(); ++k)
     if (own_[k].at == At::queued) others.push_back(k);
-  const std::vector<Piece> pieces = pieces_of(wanted, limits_.tasks, limits_.bytes, at_once, others);
+  const std::size_t tasks = room_ ? std::min(limits_.tasks, *room_) : limits_.tasks;
+  const std::vector<Piece> pieces = pieces_of(wanted, tasks, limits_.bytes, at_once, others);
   std::vector<std::string> numbers;
   for (const Piece& piece : pieces) {
     std::vector<std::string> behind;
     for (const std::size_t other : piece.behind) behind.push_back(numbers[other]);
     numbers.push_back(submit_some(piece, behind));
-    if (is_full_ || is_interrupted()) return false;
+    if (!may_submit()) return false;
   }
   return true;
 }
@@ -73,39 +75,41 @@ bool SlurmJobs::submit(const std::vector<Wanted>& wanted) {
 /// All of it or, where Slurm takes no more, a part; the number of the job.
 std::string SlurmJobs::submit_some(Piece piece, const std::vector<std::string>& behind) {
   for (;;) {
-    std::string refusal;
-    const std::string number = submit_piece(piece, behind, refusal);
-    if (number.empty()) is_full_ = true;
-    if (number.empty() && piece.jobs.size() > 1) {
-      piece.jobs.resize(piece.jobs.size() / 2);
-      continue;
+    const Submission done = submit_piece(piece, behind);
+    if (!done.job.empty()) {
+      if (room_) *room_ -= std::min(*room_, piece.jobs.size());
+      return done.job;
     }
-    if (number.empty() && with_slurm() == 0) throw MachineFailure("error: Slurm takes no job: " + refusal);
-    if (is_full_ && !full_was_told_) options_.say("Slurm takes no more jobs now; the rest is submitted as others end");
-    full_was_told_ = full_was_told_ || is_full_;
-    return number;
+    if (done.is_unsure) {
+      options_.say("Slurm does not answer: " + done.refusal + "; it is asked again");
+      unsure_since_ = Clock::now();
+      return "";
+    }
+    room_ = 0;
+    if (piece.jobs.size() == 1 && with_slurm() == 0) throw MachineFailure("error: Slurm takes no job: " + done.refusal);
+    if (!full_was_told_) options_.say("Slurm takes no more jobs now; the rest is submitted as others end");
+    full_was_told_ = true;
+    if (piece.jobs.size() == 1) return "";
+    piece.jobs.resize(piece.jobs.size() / 2);
   }
 }
 
-/// The number of the job, or nothing and why Slurm takes no more now.
-std::string SlurmJobs::submit_piece(const Piece& piece, const std::vector<std::string>& behind, std::string& refusal) {
+Submission SlurmJobs::submit_piece(const Piece& piece, const std::vector<std::string>& behind) {
   std::vector<std::string> names;
   for (const std::size_t job : piece.jobs) names.push_back((*jobs_)[job].name);
   const std::string word = ledger_.intend(names);
-  const Submission done = slurm::submit(options_of(piece, behind, word), script_of(piece), ledger_.descriptor());
-  if (done.job.empty() && !done.is_limit)
+  Submission done = controller_.submit(options_of(piece, behind, word), script_of(piece), ledger_.descriptor());
+  if (done.job.empty() && !done.is_limit && !done.is_unsure)
     throw MachineFailure(fmt::format("error: Slurm refuses the jobs: {}{}", done.refusal,
                                      with_slurm() > 0 ? "; those that it has taken before go on" : ""));
-  refusal = done.refusal;
-  if (done.job.empty()) return "";
-  ledger_.submitted(word, done.job);
+  if (done.job.empty()) return done;
   for (std::size_t task = 0; task < piece.jobs.size(); ++task) {
     Own& own = own_[piece.jobs[task]];
     own.at = At::queued;
     own.place = {word, task};
     own.array = done.job;
   }
-  return done.job;
+  return done;
 }
 
 std::vector<std::string> SlurmJobs::options_of(const Piece& piece, const std::vector<std::string>& behind,
