@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/packing/balance.hpp"
 #include "core/packing/insertion.hpp"
 #include "core/packing/packing.hpp"
 #include "core/packing/settle.hpp"
@@ -179,6 +180,7 @@ void forced_filling(Packing& packing, const ForcedFilling& rule) {
   place_all(packing, rule.tolerance);
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
+  if (rule.balanced) balance(crowd, packing.dispersion.spread, packing.tell);
   reach_coordination(crowd, rule.coordination, rule.bulk, packing.tell);
   put_back(crowd, order, packing);
   packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();

@@ -19,6 +19,14 @@ class ForcedFilling final : public PackingStep {
                                      "from walls and obstacles, where walls take no contacts away",
                               .fallback = "all",
                               .choices = {"all", "bulk"}}};
+  Param<std::string> radii{
+      this,
+      {.name = "radii",
+       .doc = "as-drawn: all grow or shrink by one factor; balanced: before that each is adapted, within its law's "
+              "range, until all elements are pressed alike, also those in rooms between obstacles that are hardly an "
+              "element wide",
+       .fallback = "as-drawn",
+       .choices = {"as-drawn", "balanced"}}};
   Param<Real> tolerance{this,
                         {.name = "tolerance",
                          .range = {0, 1, true, true},
@@ -28,7 +36,7 @@ class ForcedFilling final : public PackingStep {
 
  protected:
   void go_on(packing::Packing& packing) override {
-    packing::forced_filling(packing, {*coordination, *tolerance, *counted == "bulk"});
+    packing::forced_filling(packing, {*coordination, *tolerance, *counted == "bulk", *radii == "balanced"});
   }
 };
 

@@ -1,0 +1,16 @@
+#pragma once
+// Radii that make all elements equally pressed, where rooms between obstacles cannot exchange elements.
+
+#include "core/packing/packing.hpp"
+
+namespace beadwork::packing {
+
+struct Crowd;
+
+/// Between obstacles that are hardly an element apart each element stays in the room that it was put into, and one
+/// common radius leaves some rooms loose when others are full. So radii of those that are pressed too much shrink and
+/// those of the others grow, a little at a time, while all push each other apart; none leaves the law's range, from
+/// `1 - spread` to `1 + spread` of the mean. docs/theory/packing.md
+void balance(Crowd&, Real spread, const Tell&);
+
+}  // namespace beadwork::packing
