@@ -47,6 +47,7 @@ void Office::close(const std::string& status, ExitCode code, const std::string& 
   summary_["exit_reason"] = reason;
   summary_["exit_code"] = static_cast<int>(code);
   summary_["runs"] = {{"run", runner.runs()}, {"known", runner.known()}};
+  summary_["loop_seconds"] = runner.loop_seconds();
   summary_["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
   write("summary.json", json_text(summary_, 2) + "\n");
 }

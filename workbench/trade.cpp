@@ -151,7 +151,9 @@ class Bargain {
                         name));
     }
     if (trials_.quantities().empty())
-      throw DeckFailure("error: the runs have no curve of a force: name what is to be compared, --quantity NAME");
+      throw DeckFailure(
+          "error: the runs have no curve of a force and find no parameters: name what is to be compared, --quantity "
+          "NAME");
     seeds_.assign(first.begin() + 2, first.end());
     first.resize(2);
     take(std::move(first));
@@ -265,7 +267,9 @@ void put_curves(const Bargain& bargain, Office& office) {
 
 int trade_off(const TradeArguments& arguments) {
   heed_signals();
-  const Loaded loaded = load_run(arguments.deck);
+  const Loaded loaded = load_checked(arguments.deck.request());
+  if (!loaded.scene->studies.empty() && loaded.scene->studies.front()->is_of_batch())
+    refuse_study(loaded, arguments.deck.path);
   const std::vector<DeckKnob> knobs = chosen_knobs(arguments, loaded);
   Office office(arguments.out, *loaded.scene, "trade");
   Progress progress([](const std::string& line) { say("{}\n", line), std::fflush(stdout); });
@@ -311,7 +315,7 @@ void add_trade(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_option("--out", arguments->out, "Folder for the results, and for the runs that they come of")->required();
   verb->add_option("--quantity", arguments->quantities,
                    "What is compared, as the columns of a batch's table are called: 'force: largest force [N]'; the "
-                   "largest force of each curve where absent")
+                   "largest force of each curve where absent, of a calibration the parameters that it finds")
       ->allow_extra_args(false);
   verb->add_option("--knob", arguments->knobs, "Values of a parameter, declared a knob or not: name=value,value")
       ->allow_extra_args(false);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/base/sha256.hpp"
@@ -20,6 +21,7 @@ struct SceneRunner::Scene {
   std::string name;
   fs::path folder;
   std::string refusal;  ///< what is wrong with its deck
+  bool is_study = false;
   bool was_known = false;
 };
 
@@ -66,14 +68,16 @@ SceneRunner::SceneRunner(SceneRunnerOptions options, const Catalogue& catalogue)
     : options_(std::move(options)), program_sum_(sum_of_program(options_.program, catalogue)) {}
 
 SceneRunner::Scene SceneRunner::scene_of(const Errand& errand) {
-  Scene scene{errand.name, {}, "", false};
+  Scene scene{errand.name, {}, "", false, false};
   Complaints complaints;
   const Loaded loaded = load_scene({errand.deck.string(), errand.overrides, options_.libraries, false}, complaints);
   std::string input = program_sum_;
   if (loaded.deck) input += loaded.deck->sha256;
   if (complaints.errors() > 0) scene.refusal = complaints.text();
-  if (loaded.scene)
+  if (loaded.scene) {
+    scene.is_study = !loaded.scene->studies.empty();
     for (const auto& [path, sum] : file_sums(loaded.scene->files())) input += sum;
+  }
   constexpr std::size_t digits = 16;
   scene.folder = options_.folder / (as_file_name(errand.name) + "_" + sha256(input).substr(0, digits));
   scene.was_known = scene.refusal.empty() && has_ended(scene.folder);
@@ -90,11 +94,21 @@ std::vector<SceneRunner::Scene> SceneRunner::scenes_of(const std::vector<Errand>
   return scenes;
 }
 
-std::vector<std::string> SceneRunner::command_for(const Errand& errand, const fs::path& folder, int threads) const {
-  std::vector<std::string> command{
-      options_.program.string(), "run",   errand.deck.string(), "--quiet",   "--batch",
-      options_.command,          "--out", folder.string(),      "--threads", std::to_string(threads),
-      "--resume-or-begin"};
+std::vector<std::string> SceneRunner::command_for(const Errand& errand, const Scene& scene, int threads) const {
+  std::vector<std::string> command{options_.program.string(),
+                                   scene.is_study ? "calibrate" : "run",
+                                   errand.deck.string(),
+                                   "--quiet",
+                                   "--batch",
+                                   options_.command,
+                                   "--out",
+                                   scene.folder.string(),
+                                   "--threads",
+                                   std::to_string(threads)};
+  if (scene.is_study)
+    command.insert(command.end(), {"--jobs", "1"});  // the same command goes on with what there is
+  else
+    command.push_back("--resume-or-begin");
   for (const Override& each : errand.overrides) command.insert(command.end(), {"--set", each.name + "=" + each.value});
   for (const std::string& library : options_.libraries) command.insert(command.end(), {"--plugins", library});
   return command;
@@ -157,17 +171,17 @@ std::vector<Outcome> SceneRunner::run(const std::vector<Errand>& errands) {
   const std::vector<Scene> scenes = scenes_of(errands);
   std::vector<Job> jobs;
   std::map<fs::path, bool> asked_for;  // two errands may be the same
-  std::vector<const Errand*> of_jobs;
+  std::vector<std::size_t> of_jobs;
   for (std::size_t k = 0; k < scenes.size(); ++k) {
     if (scenes[k].was_known) ++known_;
     if (scenes[k].was_known || !scenes[k].refusal.empty() || asked_for[scenes[k].folder]) continue;
     asked_for[scenes[k].folder] = true;
     jobs.push_back({scenes[k].name, scenes[k].folder, {}});
-    of_jobs.push_back(&errands[k]);
+    of_jobs.push_back(k);
   }
   const Shares shares = options_.shares.among(jobs.size());
   for (std::size_t k = 0; k < jobs.size(); ++k)
-    jobs[k].command = command_for(*of_jobs[k], jobs[k].folder, shares.threads);
+    jobs[k].command = command_for(errands[of_jobs[k]], scenes[of_jobs[k]], shares.threads);
   Events events(options_, jobs, errands.size());
   LocalJobs(shares.jobs, Voice::silent, options_.interrupt).run(jobs, events);
   runs_ += jobs.size();
@@ -175,8 +189,18 @@ std::vector<Outcome> SceneRunner::run(const std::vector<Errand>& errands) {
     throw Interrupted(fmt::format("interrupted; go on with: {}", options_.command));
   if (!events.failure().empty()) throw MachineFailure(events.failure());
   std::vector<Outcome> outcomes;
-  for (const Scene& scene : scenes) outcomes.push_back(outcome_of(scene));
+  for (const Scene& scene : scenes) {
+    outcomes.push_back(outcome_of(scene));
+    seconds_[scene.folder] = outcomes.back().number("loop_seconds");
+  }
   return outcomes;
+}
+
+Real SceneRunner::loop_seconds() const {
+  Real sum = 0;
+  for (const auto& [folder, seconds] : seconds_)
+    if (std::isfinite(seconds)) sum += seconds;  // none of a scene that was refused
+  return sum;
 }
 
 }  // namespace beadwork

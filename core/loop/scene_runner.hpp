@@ -1,10 +1,11 @@
 #pragma once
-// Runs the scenes of a study: each as the program itself runs a deck, in a process and a folder of its own, several at
-// once. What came of a scene is known by the hash of all that went in, so that nothing is run twice, and what a kill
+// Runs the scenes of a study, and calibrations: each as the program itself runs a deck, in a process and a folder of its
+// own, several at once. What came of a scene is known by the hash of all that went in, so that nothing is run twice, and what a kill
 // has stopped goes on.
 
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ class SceneRunner final : public Runner {
 
   std::size_t runs() const { return runs_; }    ///< that were run
   std::size_t known() const { return known_; }  ///< whose outcome was there
+  Real loop_seconds() const;                    ///< that all of them have taken in their loops, whenever that was
 
  private:
   struct Scene;
@@ -42,11 +44,12 @@ class SceneRunner final : public Runner {
   std::vector<Scene> scenes_of(const std::vector<Errand>& errands);
   Scene scene_of(const Errand& errand);
   Outcome outcome_of(const Scene& scene) const;
-  std::vector<std::string> command_for(const Errand& errand, const std::filesystem::path& folder, int threads) const;
+  std::vector<std::string> command_for(const Errand& errand, const Scene& scene, int threads) const;
 
   SceneRunnerOptions options_;
   std::string program_sum_;  ///< over the program and its libraries
   std::size_t runs_ = 0, known_ = 0;
+  std::map<std::filesystem::path, Real> seconds_;  ///< of each folder
 };
 
 /// Over the program, its kernel and the plugin libraries that it has opened, as they are on the disk.

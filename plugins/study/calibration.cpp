@@ -32,9 +32,17 @@ class Calibration final : public Study {
                        .optional = true}};
   Param<std::string> shape{
       this, {.name = "shape", .doc = "Of the samples", .fallback = "box", .choices = {"box", "cylinder"}}};
-  Param<std::int64_t> elements{this, {.name = "elements", .range = {1}, .doc = "Of a sample", .fallback = "5000"}};
-  Param<std::int64_t> seeds{
-      this, {.name = "seeds", .range = {1, 1000}, .doc = "Number of samples, with seeds 1, 2, ...", .fallback = "3"}};
+  Param<std::int64_t> elements{
+      this,
+      {.name = "elements", .range = {1}, .doc = "Of a sample", .fallback = "5000", .knob = Knob::smaller_is_faster}};
+  Param<std::int64_t> seeds{this,
+                            {.name = "seeds",
+                             .range = {1, 1000},
+                             .doc = "Number of samples, with seeds 'first-seed' and those behind it",
+                             .fallback = "3",
+                             .knob = Knob::smaller_is_faster}};
+  Param<std::int64_t> first_seed{
+      this, {.name = "first-seed", .range = {0}, .doc = "Seed of the first sample", .fallback = "1"}};
   Param<Real> spread{this,
                      {.name = "spread",
                       .range = {0, 1, false, true},
@@ -103,7 +111,8 @@ class Calibration final : public Study {
        .doc = "Mover of the samples: static finds equilibria, and breaks one bond or element after the "
               "other; verlet pulls slowly, with inertia",
        .fallback = "static",
-       .choices = {"static", "verlet"}}};
+       .choices = {"static", "verlet"},
+       .knob = Knob::a_choice}};
 
   Param<Real> within{
       this,
@@ -111,7 +120,8 @@ class Calibration final : public Study {
        .range = {0, 0.5},
        .doc = "By statics, what comes so near, as a share, to breaking first breaks with it; 1e-6 is one "
               "after the other, more is faster",
-       .fallback = "0.02"}};
+       .fallback = "0.02",
+       .knob = Knob::larger_is_faster}};
 
   void check(Complaints& complaints) const override {
     if (name.given() && !is_plain_name(*name))
@@ -184,6 +194,7 @@ class Calibration final : public Study {
     plan.decks = {*shape == "cylinder", *elements, *spread, *coordination, *counted, *by, *within};
     for (const auto& row : *ratios) plan.ratios.push_back(row[0]);
     plan.seeds = *seeds;
+    plan.first_seed = *first_seed;
     plan.bond_poisson = *bond_poisson;
     plan.through_centres = *section == "centres";
     plan.criteria = *criteria;

@@ -25,7 +25,7 @@ struct Plan {
   Material material;
   SampleDecks decks;
   std::vector<Real> ratios;  ///< at which the curves are measured
-  std::int64_t seeds;
+  std::int64_t seeds, first_seed;
   Real bond_poisson;
   bool through_centres;  ///< of the section that the force is taken over: it ends at the centres of the outer elements
   std::vector<std::string> criteria;  ///< "bbf-axial-bending", "rdef"

@@ -14,45 +14,53 @@ inline std::string parameter_of(const std::string& criterion) {
   return (criterion == "bbf-axial-bending" ? "bbf" : criterion) + "-strength";
 }
 
-inline std::string parameter_line(const std::string& name, const std::string& value, const std::string& remark) {
-  return fmt::format("  <parameter name=\"{}\" value=\"{}\"/>{}\n", name, value,
-                     remark.empty() ? "" : "  <!-- " + remark + " -->");
+/// A parameter of the file that decks include.
+struct FoundParameter {
+  std::string name;  ///< "epoxy.young"
+  Real value;
+  std::string unit, remark;
+};
+
+inline std::vector<FoundParameter> parameters_found(const Plan& plan, const Found& found) {
+  const Material& m = plan.material;
+  const std::string name = m.name + ".";
+  std::vector<Real> young;
+  for (const Elastic& e : found.elastic) young.push_back(1e-9 * m.young / modulus_of(plan, e));
+  std::vector<FoundParameter> all{
+      {name + "radius-ratio", found.ratio, "", "samples by themselves: " + spread_text(found.ratios)},
+      {name + "young", found.young, " Pa", spread_text(young) + " GPa"},
+      {name + "poisson", plan.bond_poisson, "", "of the bonds; the solid hardly depends on it"}};
+  if (m.density) {
+    const Real packed = scatter_of(each(found.packings, &Packed::density_bulk)).mean;
+    all.push_back({name + "density", rounded(*m.density / packed, 5), " kg/m^3",
+                   fmt::format("of the elements: that of the solid is {:.6g} kg/m^3", *m.density)});
+  }
+  for (const Strength& s : found.strengths)
+    if (s.trouble.empty())
+      all.push_back({name + parameter_of(s.criterion), s.value, " Pa",
+                     fmt::format("{}; with it the samples carry {}", stress_text(s.wanted), stress_text(s.confirmed))});
+  return all;
 }
 
 inline std::string parameters(const Plan& plan, const Found& found, const std::string& provenance) {
   const Material& m = plan.material;
-  const std::string name = m.name + ".";
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Bonds whose solid is {}: Young's modulus {:.6g} GPa, Poisson's "
-      "ratio {:.4g}{}.\n     {}.\n     {} samples ({}, {} elements, spread of radii {:.4g}, seeds 1 to {}): "
+      "ratio {:.4g}{}.\n     {}.\n     {} samples ({}, {} elements, spread of radii {:.4g}, seeds {} to {}): "
       "coordination {} ({} "
       "in the bulk), density {} in the bulk.\n     Stress is the reaction over the section {}.\n     Behind +-: the "
       "standard deviation of the samples. -->\n<scene>\n",
       m.name, 1e-9 * m.young, m.poisson,
       m.strength ? fmt::format(", tensile strength {:.6g} MPa", 1e-6 * *m.strength) : "", provenance, plan.seeds,
-      plan.decks.is_cylinder ? "cylinder" : "box", plan.decks.elements, plan.decks.spread, plan.seeds,
-      spread_text(each(found.packings, &Packed::coordination)),
+      plan.decks.is_cylinder ? "cylinder" : "box", plan.decks.elements, plan.decks.spread, plan.first_seed,
+      plan.first_seed + plan.seeds - 1, spread_text(each(found.packings, &Packed::coordination)),
       spread_text(each(found.packings, &Packed::coordination_bulk)),
       spread_text(each(found.packings, &Packed::density_bulk)),
       plan.through_centres ? "through the centres of the outer elements" : "of the whole sample");
   text += tests_remark(plan, found.tested);
-  text += parameter_line(name + "radius-ratio", format_number(found.ratio),
-                         "samples by themselves: " + spread_text(found.ratios));
-  std::vector<Real> young;
-  for (const Elastic& e : found.elastic) young.push_back(1e-9 * m.young / modulus_of(plan, e));
-  text += parameter_line(name + "young", format_number(found.young) + " Pa", spread_text(young) + " GPa");
-  text += parameter_line(name + "poisson", format_number(plan.bond_poisson),
-                         "of the bonds; the solid hardly depends on it");
-  if (m.density) {
-    const Real packed = scatter_of(each(found.packings, &Packed::density_bulk)).mean;
-    text += parameter_line(name + "density", format_number(rounded(*m.density / packed, 5)) + " kg/m^3",
-                           fmt::format("of the elements: that of the solid is {:.6g} kg/m^3", *m.density));
-  }
-  for (const Strength& s : found.strengths)
-    if (s.trouble.empty())
-      text += parameter_line(
-          name + parameter_of(s.criterion), format_number(s.value) + " Pa",
-          fmt::format("{}; with it the samples carry {}", stress_text(s.wanted), stress_text(s.confirmed)));
+  for (const FoundParameter& p : parameters_found(plan, found))
+    text += fmt::format("  <parameter name=\"{}\" value=\"{}{}\"/>  <!-- {} -->\n", p.name, format_number(p.value),
+                        p.unit, p.remark);
   return text + "</scene>\n";
 }
 
@@ -137,6 +145,10 @@ inline std::string result_json(const Plan& plan, const Found& found) {
     text += s.trouble.empty() ? fmt::format(R"(,"{}":{{"strength":{},"samples":{},"peak":{}}})", s.criterion,
                                             format_number(s.value), numbers_json(s.wanted), numbers_json(s.confirmed))
                               : fmt::format(R"(,"{}":{{"strength":null}})", s.criterion);
+  std::string list;
+  for (const FoundParameter& p : parameters_found(plan, found))
+    list += fmt::format(R"({}"{}":{})", list.empty() ? "" : ",", p.name, number_json(p.value));
+  text += fmt::format(R"(,"parameters":{{{}}})", list);
   if (!found.line.empty()) text += fmt::format(R"(,"off_the_line":{})", number_json(off_the_line(found.line)));
   if (!found.tested.empty()) text += "," + tests_json(plan, found.tested);
   return text + "}";

@@ -45,14 +45,16 @@ class Work {
   void pack() {
     const auto deck = desk_.write("packing.xml", packing_deck(plan_.decks));
     std::vector<Errand> errands;
-    for (std::int64_t seed = 1; seed <= plan_.seeds; ++seed)
-      errands.push_back({fmt::format("packing,seed={}", seed), deck, {{"seed", std::to_string(seed)}}});
+    for (std::int64_t k = 0; k < plan_.seeds; ++k) {
+      const std::string seed = std::to_string(plan_.first_seed + k);
+      errands.push_back({"packing,seed=" + seed, deck, {{"seed", seed}}});
+    }
     const std::vector<Outcome> outcomes = desk_.runner.run(errands);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       const Outcome& one = outcomes[k];
       if (!one.is_done()) throw PhysicsFailure(fmt::format("error: {}: {}", errands[k].name, one.reason));
       const auto last = [&](const char* name) { return last_step(one, name); };
-      found_.packings.push_back({static_cast<std::int64_t>(k) + 1,
+      found_.packings.push_back({plan_.first_seed + static_cast<std::int64_t>(k),
                                  (one.folder / "run.h5").lexically_relative(desk_.folder).string(),
                                  last("coordination"), last("coordination_bulk"), last("density_bulk"),
                                  last("fabric_eigenvalues/0"), last("fabric_eigenvalues/2")});

@@ -24,7 +24,7 @@ Real mean_of(const std::vector<Real>& numbers) {
 Quantities usual_quantities(const Outcome& outcome) {
   Quantities names;
   for (const auto& [name, value] : results_of(outcome.folder))
-    if (name.find(": largest ") != std::string::npos) names.push_back(name);
+    if (name.find(": largest ") != std::string::npos || name.starts_with("result: parameters: ")) names.push_back(name);
   return names;
 }
 

@@ -26,7 +26,8 @@ struct Tried {
 /// What is compared, as the columns of a batch's table are called: "force: largest force [N]".
 using Quantities = std::vector<std::string>;
 
-/// Those that a run has if the user names none: the largest forces of its curves.
+/// Those that a run has if the user names none: the largest forces of its curves; of a calibration, the parameters that
+/// it has found.
 Quantities usual_quantities(const Outcome& outcome);
 /// Cost and quantities of a run; errors are still to be told.
 Tried tried(const std::string& name, const std::vector<Override>& values, const Outcome& outcome,
