@@ -29,7 +29,7 @@ struct BatchArguments {
   std::vector<std::string> sbatch;
   Words words;
   int jobs = 0, threads = 0, most_runs = 10000;
-  bool keep_going = false, no_wait = false;
+  bool keep_going = false, no_wait = false, dry_run = false;
   bool is_slurm() const { return engine == "slurm"; }
 };
 
@@ -121,7 +121,7 @@ int batch(const BatchArguments& arguments) {
   checks.check_all(runs);
   const std::size_t refused = checks.refused();
   write_error(checks.text(runs.size()));
-  if (refused > 0 && !arguments.keep_going) {
+  if (refused > 0 && !arguments.keep_going && !arguments.dry_run) {
     write_error(refused < runs.size() ? "nothing was run; --keep-going runs the others\n" : "nothing was run\n");
     return worst(runs);
   }
@@ -130,6 +130,10 @@ int batch(const BatchArguments& arguments) {
   };
   const std::size_t done = count([](const BatchRun& run) { return run.done; });
   const std::size_t outdated = count([](const BatchRun& run) { return run.outdated; });
+  if (arguments.dry_run) {
+    say("{}{} runs, {} of them done already\n", outlook_on(runs), runs.size(), done);
+    return refused > 0 ? worst(runs) : 0;
+  }
   OwnFolder folder(arguments.out, Manifest::Of::batch);
   const ClaimFiles claims(plan, folder);
   const Shares shares = shares_of(arguments, runs.size() - done - refused);
@@ -221,6 +225,7 @@ void add_batch(CLI::App& app, Chosen& chosen, const Words& words) {
   verb->add_option("--most-runs", arguments->most_runs, "Refuses more runs than these")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  verb->add_flag("--dry-run", arguments->dry_run, "Checks all decks and tells what would be run, and runs nothing");
   verb->add_flag("--keep-going", arguments->keep_going, "Runs those whose decks are in order, though others are not");
   CLI::Option* engine = verb->add_option("--engine", arguments->engine,
                                          "local: processes of this machine; slurm: arrays of jobs, which go on "

@@ -80,6 +80,9 @@ class DeckChecks {
   std::size_t refused_ = 0;
 };
 
+/// What each would do, a line each, as the checks have found it (batch_outlook.cpp).
+std::string outlook_on(const std::vector<BatchRun>& runs);
+
 // ---- What came of them (batch_table.cpp, batch_means.cpp)
 
 /// True if a run ended there, in order, with the data files that there are now. DeckFailure if it was another deck, or

@@ -1,3 +1,4 @@
+#include "core/base/text.hpp"
 #include "workbench/terminal.hpp"
 #include "workbench/verbs.hpp"
 
@@ -14,7 +15,12 @@ void add_check(CLI::App& app, Chosen& chosen) {
     chosen = [arguments, verbose] {
       const Loaded loaded = load_checked(arguments->request());
       if (*verbose) write_out(loaded.scene->resolved);
-      say("{}: no errors\n", arguments->path);
+      const auto& studies = loaded.scene->studies;
+      const bool has_runs = !studies.empty() && studies.front()->is_of_batch();
+      say("{}: no errors{}\n", arguments->path,
+          has_runs ? "; the decks of its runs are checked by: beadwork batch " + shell_quoted(arguments->path) +
+                         " --out FOLDER --dry-run"
+                   : "");
       return 0;
     };
   });

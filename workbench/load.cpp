@@ -90,8 +90,9 @@ void refuse_study(const Loaded& loaded, const std::string& path) {
   if (!loaded.scene || loaded.scene->studies.empty()) return;
   const Study& study = *loaded.scene->studies.front();
   refuse(study.at(),
-         fmt::format("this deck holds a study, which runs scenes of its own. Do: beadwork {} {} --out FOLDER",
-                     study.is_of_batch() ? "batch" : "calibrate", shell_quoted(path)));
+         fmt::format("this deck holds a study, which runs scenes of its own. Do: beadwork {} {} --out FOLDER{}",
+                     study.is_of_batch() ? "batch" : "calibrate", shell_quoted(path),
+                     study.is_of_batch() ? "; what it would run: --dry-run" : ""));
 }
 
 }  // namespace beadwork
