@@ -1,6 +1,7 @@
 #include "core/packing/balance.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "core/packing/blocks.hpp"
@@ -40,34 +41,51 @@ Hold hold_of(const Crowd& crowd, std::span<const Index> neighbours, std::size_t 
 
 /// An element of z contacts is pressed by z/2 times the share by which its radius grows.
 Real change_for(const Hold& hold) {
-  if (hold.contacts < contacts_that_hold) return most_change;
+  if (hold.contacts < contacts_that_hold && hold.pressing < wanted_pressing) return most_change;
   constexpr Real gain = 1.0 / 6;
   return std::clamp(gain * (wanted_pressing - hold.pressing), -most_change, most_change);
 }
 
-std::size_t adapt_radii(Crowd& crowd, const NeighbourList& list, Real least, Real largest) {
+struct Round {
+  std::size_t near = 0, loose = 0;  ///< elements that are not in the bulk, and those of them that are not held
+  Real most = 0;                    ///< largest change of a radius, over itself
+};
+
+Round adapt_radii(Crowd& crowd, const NeighbourList& list, Real spread) {
+  const Real mean = mean_radius(crowd), least = (1 - spread) * mean, largest = (1 + spread) * mean;
+  const std::vector<char> bulk = bulk_of(crowd);
   std::vector<Real> radius(crowd.moving);
-  std::vector<char> loose(crowd.moving);
+  std::vector<char> loose(crowd.moving, 0);
   for_each(crowd.moving, [&](std::size_t i) {
-    const Hold hold = hold_of(crowd, list.of(i), i);
     const Real now = crowd.ball[i].r;
+    radius[i] = now;
+    if (bulk[i]) return;
+    const Hold hold = hold_of(crowd, list.of(i), i);
     loose[i] = hold.contacts < contacts_that_hold;
     radius[i] = std::clamp(now * (1 + change_for(hold)), std::min(now, least), std::max(now, largest));
   });
-  for (std::size_t i = 0; i < crowd.moving; ++i) crowd.ball[i].r = radius[i];
-  return std::size_t(std::count(loose.begin(), loose.end(), 1));
+  Round round;
+  for (std::size_t i = 0; i < crowd.moving; ++i) {
+    round.near += !bulk[i];
+    round.loose += std::size_t(loose[i]);
+    round.most = std::max(round.most, std::abs(radius[i] / crowd.ball[i].r - 1));
+    crowd.ball[i].r = radius[i];
+  }
+  return round;
 }
 
 }  // namespace
 
 void balance(Crowd& crowd, Real spread, const Tell& tell) {
-  const Real mean = mean_radius(crowd);
+  constexpr Real hardly = 1e-3;
   Neighbours neighbours(skin);
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::size_t loose = adapt_radii(crowd, neighbours.of(crowd), (1 - spread) * mean, (1 + spread) * mean);
-    tell((std::ostringstream() << loose << " of " << crowd.moving << " elements are held by fewer than "
-                               << contacts_that_hold << " others")
+  for (int k = 0; k < most_rounds; ++k) {
+    const Round round = adapt_radii(crowd, neighbours.of(crowd), spread);
+    tell((std::ostringstream() << round.loose << " of " << round.near
+                               << " elements near walls and obstacles are held by "
+                               << "fewer than " << contacts_that_hold << " others")
              .str());
+    if (round.most < hardly) return;
     settle(crowd, neighbours, steps_a_round, 0.03);
   }
 }

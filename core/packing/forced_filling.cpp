@@ -177,6 +177,8 @@ void forced_filling(Packing& packing, const ForcedFilling& rule) {
   check(rule);
   if (packing.position.empty() && packing.waiting.empty())
     throw std::invalid_argument("there are no elements to fill with: free filling comes first");
+  if (rule.balanced && packing.dispersion.spread == 0)
+    throw std::invalid_argument("radii cannot be balanced where they may not differ: give them a spread");
   place_all(packing, rule.tolerance);
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);

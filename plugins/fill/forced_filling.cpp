@@ -22,8 +22,9 @@ class ForcedFilling final : public PackingStep {
   Param<std::string> radii{
       this,
       {.name = "radii",
-       .doc = "as-drawn: all grow or shrink by one factor; balanced: before that each is adapted, within its law's "
-              "range, until all elements are pressed alike, also those in rooms between obstacles that are hardly an "
+       .doc = "as-drawn: all grow or shrink by one factor; balanced: before that those near walls and obstacles are "
+              "adapted, within their law's range, until their elements are pressed alike, also in rooms that are "
+              "hardly an "
               "element wide",
        .fallback = "as-drawn",
        .choices = {"as-drawn", "balanced"}}};

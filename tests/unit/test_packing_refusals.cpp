@@ -114,9 +114,9 @@ TEST(Packing, can_be_interrupted_in_each_of_its_long_loops) {
   };
   EXPECT_GT(pauses_of({}, free), 20000);
   const Packing start = free_filling(cube(400));
-  EXPECT_GT(pauses_of(start, [](Packing p) { forced_filling(p); }), 400);
-  const ForcedFilling balanced{.balanced = true};
-  EXPECT_GT(pauses_of(start, [&](Packing p) { forced_filling(p, balanced); }), 400);
+  const int of_filling = pauses_of(start, [](Packing p) { forced_filling(p); });
+  EXPECT_GT(of_filling, 400);
+  EXPECT_GT(pauses_of(start, [](Packing p) { forced_filling(p, {.balanced = true}); }), of_filling + 400);
   Packing packed = start;
   forced_filling(packed);
   // A round solves equations in many iterations, each as long as a step of arranging.
