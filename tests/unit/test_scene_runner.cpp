@@ -53,8 +53,10 @@ TEST_F(SceneRunnerTest, tells_what_came_of_each_scene_in_their_order) {
   EXPECT_EQ(outcomes[0].number("elements"), 2);
   ASSERT_EQ(outcomes[0].column("force", "force").size(), 6U);
   EXPECT_GT(outcomes[1].column("force", "force").back(), outcomes[0].column("force", "force").back());
-  EXPECT_DOUBLE_EQ(runner.loop_seconds(), outcomes[0].number("loop_seconds") + outcomes[1].number("loop_seconds"))
-      << "the third is the first";
+  Real seconds = 0;
+  for (const Outcome& each : outcomes) seconds += each.number("loop_seconds");
+  runner.run({errand("soft")});
+  EXPECT_DOUBLE_EQ(runner.loop_seconds(), seconds) << "what was known counts once";
   EXPECT_TRUE(std::isnan(outcomes[0].number("no/such/number")));
   EXPECT_TRUE(outcomes[0].column("force", "no such column").empty());
 }

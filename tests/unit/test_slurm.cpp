@@ -122,28 +122,25 @@ TEST(SlurmLedger, what_was_meant_to_be_submitted_is_found_again) {
   {
     Ledger ledger(file);
     word = ledger.intend({"a/E=1", "b"});
+    ledger.answered(word, "17");
     ledger.intend({"c"});
   }
   const auto entries = read_ledger(file);
   ASSERT_EQ(entries.size(), 2u);
   EXPECT_EQ(entries[0].word, word);
   EXPECT_THAT(entries[0].jobs, ElementsAre("a/E=1", "b"));
-  EXPECT_NE(entries[1].word, word);
+  EXPECT_EQ(entries[0].number, "17");
+  EXPECT_FALSE(entries[1].number) << "no answer is known";
   Ledger again(file);
   again.clear();
   EXPECT_THAT(read_ledger(file), IsEmpty());
 }
 
-TEST(SlurmLedger, is_one_command_s_at_a_time) {
+TEST(SlurmLedger, waits_for_what_still_submits_and_no_longer) {
   const Scratch scratch;
   const auto file = scratch.path() / "batch.jobs";
   const Ledger first(file);
-  try {
-    Ledger second(file, std::chrono::milliseconds(50));
-    FAIL() << "two commands would submit the same jobs";
-  } catch (const DeckFailure& failure) {
-    EXPECT_THAT(failure.what(), HasSubstr("another command follows the jobs of " + scratch.path().string()));
-  }
+  EXPECT_THROW(Ledger(file, std::chrono::milliseconds(50)), MachineFailure);
 }
 
 TEST(SlurmQueue, no_answer_is_no_refusal) {
@@ -158,16 +155,19 @@ TEST(SlurmQueue, no_answer_is_no_refusal) {
   EXPECT_FALSE(wrong.is_limit || wrong.is_unsure);
 }
 
-/// A queue in memory. What is in it ends when it is looked at.
+/// A queue in memory. Each time that it is looked at, what waited runs, and what ran ends as it is to end.
 class Queue : public Controller {
  public:
   explicit Queue(const Scratch& scratch) : desk(scratch.path()) {}
   Limits limits() override { return {}; }
   std::optional<std::map<Place, Seen>> queue() override {
+    ++looks;
     for (auto& [place, seen] : tasks) {
-      if (seen.state == "COMPLETED") continue;
-      seen.state = "COMPLETED";
-      write_note(desk / (seen.array + "_" + std::to_string(place.second) + ".note"), {1, JobEnd{0, "exit code 0"}});
+      if (seen.state == "RUNNING") {
+        seen.state = code == 0 ? "COMPLETED" : "FAILED";
+        write_note(desk / (seen.array + "_" + std::to_string(place.second) + ".note"), {1, JobEnd{code, "it ended"}});
+      }
+      if (seen.state == "PENDING") seen.state = "RUNNING";
     }
     return tasks;
   }
@@ -180,6 +180,7 @@ class Queue : public Controller {
       if (option.starts_with("--array=0-")) count = std::stoul(option.substr(10)) + 1;
     }
     ++asked;
+    if (requests_lost-- > 0) return {"", "Socket timed out", false, true};
     if (count > room()) return {"", "Job violates accounting/QOS policy", true, false};
     const std::string number = std::to_string(100 + asked);
     for (std::size_t task = 0; task < count; ++task) tasks[{word, task}] = {"PENDING", "", number};
@@ -188,68 +189,123 @@ class Queue : public Controller {
   }
   std::size_t room() const {
     std::size_t at_work = 0;
-    for (const auto& [place, seen] : tasks) at_work += seen.state != "COMPLETED";
+    for (const auto& [place, seen] : tasks) at_work += !seen.has_ended();
     return holds - std::min(holds, at_work);
   }
   std::filesystem::path desk;
   std::map<Place, Seen> tasks;
   std::size_t holds = 1000;
-  int asked = 0, answers_lost = 0;
+  int asked = 0, looks = 0, requests_lost = 0, answers_lost = 0, code = 0;
 };
 
 struct Ends : JobEvents {
-  explicit Ends(const Queue& of) : queue(of) {}
-  void ended(std::size_t job, const JobEnd& end) override {
-    ++times[job];
-    codes += end.code;
-  }
-  bool was_done_elsewhere(std::size_t job) override {
-    for (const auto& [place, seen] : queue.tasks)
-      if (place.second == job && seen.state == "COMPLETED") return done.insert(job), true;
-    return false;
-  }
-  const Queue& queue;
-  std::map<std::size_t, int> times;
-  std::set<std::size_t> done;
-  int codes = 0;
+  void ended(std::size_t job, const JobEnd& end) override { codes[job].push_back(end.code); }
+  Turn turn_of(std::size_t) override { return turn; }
+  bool was_done_elsewhere(std::size_t job) override { return done_elsewhere.contains(job); }
+  std::map<std::size_t, std::vector<int>> codes;
+  std::set<std::size_t> done_elsewhere;
+  Turn turn = Turn::now;
 };
 
-/// So many jobs through a queue; how each ended.
-Ends through(Queue& queue, const Scratch& scratch, std::size_t count) {
-  using std::chrono::milliseconds;
-  SlurmJobs driver({.sbatch = {},
-                    .ledger = scratch.path() / "batch.jobs",
-                    .desk = scratch.path(),
-                    .shortest_rest = milliseconds(5),
-                    .answers_within = milliseconds(20)},
-                   queue);
-  std::vector<Job> jobs;
-  for (std::size_t k = 0; k < count; ++k)
-    jobs.push_back({"job-" + std::to_string(k), scratch.path() / std::to_string(k), {"true"}});
-  Ends ends(queue);
-  driver.run(jobs, ends);
-  return ends;
+void expect_each_once(const Ends& ends, std::size_t count, int code = 0) {
+  EXPECT_EQ(ends.codes.size(), count);
+  for (const auto& [job, codes] : ends.codes) EXPECT_THAT(codes, ElementsAre(code)) << job;
 }
 
-TEST(SlurmJobs, each_is_submitted_once_though_an_answer_is_lost) {
+struct Through {
+  std::size_t count;
+  bool follow = true;
+};
+/// So many jobs through a queue.
+void run(Queue& queue, Ends& ends, const Scratch& scratch, Through wish) {
+  using std::chrono::milliseconds;
+  SlurmJobs driver({.sbatch = {},
+                    .follow = wish.follow,
+                    .ledger = scratch.path() / "batch.jobs",
+                    .desk = scratch.path(),
+                    .shortest_rest = milliseconds(2),
+                    .answers_within = milliseconds(3)},
+                   queue);
+  std::vector<Job> jobs;
+  for (std::size_t k = 0; k < wish.count; ++k)
+    jobs.push_back({"job-" + std::to_string(k), scratch.path() / std::to_string(k), {"true"}});
+  driver.run(jobs, ends);
+}
+
+TEST(SlurmJobs, are_submitted_once_though_the_answer_is_lost) {
+  for (const int code : {0, 3}) {
+    const Scratch scratch;
+    Queue queue(scratch);
+    queue.answers_lost = 1;
+    queue.code = code;
+    Ends ends;
+    run(queue, ends, scratch, {5});
+    EXPECT_EQ(queue.tasks.size(), 5u) << "the first submission was taken, though nobody said so";
+    expect_each_once(ends, 5, code);
+  }
+}
+
+TEST(SlurmJobs, are_submitted_again_if_the_request_was_lost) {
+  const Scratch scratch;
+  Queue queue(scratch);
+  queue.requests_lost = 2;
+  Ends ends;
+  run(queue, ends, scratch, {5});
+  EXPECT_EQ(queue.asked, 3);
+  expect_each_once(ends, 5);
+}
+
+TEST(SlurmJobs, of_a_command_that_leaves_are_found_by_the_next_though_the_answer_was_lost) {
   const Scratch scratch;
   Queue queue(scratch);
   queue.answers_lost = 1;
-  const Ends ends = through(queue, scratch, 5);
-  EXPECT_EQ(ends.times.size() + ends.done.size(), 5u);
-  EXPECT_EQ(queue.tasks.size(), 5u) << "the first submission was taken, though nobody said so";
+  Ends ends;
+  run(queue, ends, scratch, {5, false});
+  EXPECT_EQ(queue.tasks.size(), 5u) << "it does not leave before it knows";
+  EXPECT_GE(queue.looks, 2);
 }
 
-TEST(SlurmJobs, a_full_queue_is_asked_again_only_for_what_has_ended) {
+TEST(SlurmJobs, that_have_ended_since_the_decks_were_checked_are_not_submitted_again) {
+  const Scratch scratch;
+  Queue queue(scratch);
+  Ends ends;
+  run(queue, ends, scratch, {3});
+  Ends again;
+  again.done_elsewhere = {0, 1};
+  run(queue, again, scratch, {3});
+  EXPECT_EQ(queue.tasks.size(), 4u);
+  Ends anew;  // what they were made of is to be made anew
+  anew.done_elsewhere = {0, 1, 2};
+  anew.turn = Turn::later;
+  run(queue, anew, scratch, {3, false});
+  EXPECT_TRUE(anew.codes.empty());
+}
+
+TEST(SlurmJobs, beyond_what_a_queue_holds_are_submitted_as_others_end) {
   const Scratch scratch;
   Queue queue(scratch);
   queue.holds = 4;
-  const Ends ends = through(queue, scratch, 64);
-  EXPECT_EQ(ends.times.size(), 64u);
-  EXPECT_EQ(ends.codes, 0);
-  for (const auto& [job, times] : ends.times) EXPECT_EQ(times, 1) << job;
+  Ends ends;
+  run(queue, ends, scratch, {64});
+  expect_each_once(ends, 64);
   EXPECT_EQ(queue.tasks.size(), 64u);
-  EXPECT_LE(queue.asked, 4 + 64 / 4 + 4) << "halved down to the room there is, then as many at a time as end";
+  EXPECT_LE(queue.asked, 6 + 2 * 64 / 4) << "halved down to the room there is, then twice for as many as end";
+}
+
+TEST(SlurmJobs, fill_a_queue_that_has_more_room_again) {
+  const Scratch scratch;
+  struct Later : Queue {
+    using Queue::Queue;
+    std::optional<std::map<Place, Seen>> queue() override {
+      if (looks == 4) holds = 1000;  // another user's jobs have ended
+      return Queue::queue();
+    }
+  } later(scratch);
+  later.holds = 1;
+  Ends ends;
+  run(later, ends, scratch, {64});
+  expect_each_once(ends, 64);
+  EXPECT_LE(later.looks, 4 + 3 * 8) << "by doubling";
 }
 
 TEST(SlurmNote, an_end_is_read_as_it_was_written) {

@@ -11,6 +11,7 @@
 
 #include "core/base/failure.hpp"
 #include "core/base/text.hpp"
+#include "core/io/own_folder.hpp"
 
 namespace beadwork::slurm {
 
@@ -23,7 +24,8 @@ std::string new_word() {
 
 }  // namespace
 
-// A line each: "jobs", the word and the names; tabs in between, which no name has.
+// A line each: "jobs", the word and the names, and, once there is an answer, "number", the word and the number; tabs in
+// between, which no name has.
 std::vector<Entry> read_ledger(const std::filesystem::path& file) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 30;
   std::vector<Entry> entries;
@@ -33,6 +35,9 @@ std::vector<Entry> read_ledger(const std::filesystem::path& file) {
     const std::vector<std::string> pieces = split(line, '\t');
     if (pieces.size() < 3) continue;
     if (pieces[0] == "jobs") entries.push_back({pieces[1], {pieces.begin() + 2, pieces.end()}});
+    if (pieces[0] == "number")
+      for (Entry& entry : entries)
+        if (entry.word == pieces[1]) entry.number = pieces[2];
   }
   return entries;
 }
@@ -42,10 +47,10 @@ Ledger::Ledger(const std::filesystem::path& file, std::chrono::milliseconds pati
   if (!open_) throw file_failure("write", file, errno);
   using Clock = std::chrono::steady_clock;
   for (const auto until = Clock::now() + patience; ::flock(open_.number(), LOCK_EX | LOCK_NB) != 0;) {
+    if (errno != EWOULDBLOCK && errno != EINTR) break;  // some network file systems have no locks
     if (Clock::now() >= until)
-      throw DeckFailure(fmt::format(
-          "error: another command follows the jobs of {}: wait for it, or end it with Ctrl-C, by which the jobs go on",
-          file.parent_path().string()));
+      throw MachineFailure(fmt::format("error: {} still submits jobs for {}: give the command again once it has ended",
+                                       holder_of(file), file.parent_path().string()));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   entries_ = read_ledger(file);
@@ -64,6 +69,12 @@ std::string Ledger::intend(const std::vector<std::string>& jobs) {
   append("jobs\t" + entry.word + "\t" + join(jobs, "\t"));
   entries_.push_back(entry);
   return entry.word;
+}
+
+void Ledger::answered(const std::string& word, const std::string& number) {
+  append("number\t" + word + "\t" + number);
+  for (Entry& entry : entries_)
+    if (entry.word == word) entry.number = number;
 }
 
 void Ledger::clear() {

@@ -136,7 +136,8 @@ Submission refusal_in(const std::string& text) {
   Submission refused{"", std::string(trim(text)), false, false};
   for (const char* sign : {"QOS policy", "SubmitJob", "temporarily unable", "too long"})
     if (says(sign)) refused.is_limit = true;
-  for (const char* sign : {"Unable to contact", "timed out", "Connection refused", "Connection reset"})
+  for (const char* sign : {"Unable to contact", "timed out", "Connection refused", "Connection reset", "Zero Bytes",
+                           "receive failure", "connection failure"})
     if (says(sign)) refused.is_unsure = true;
   return refused;
 }
@@ -150,7 +151,10 @@ Submission Controller::submit(const std::vector<std::string>& options, const std
     const std::string job(trim(answer.out.substr(0, answer.out.find(';'))));
     if (whole_number(job)) return {job, "", false, false};
   }
-  return refusal_in(answer.error);
+  constexpr int killed = 128;
+  Submission refused = refusal_in(answer.error);
+  refused.is_unsure = refused.is_unsure || answer.code == 0 || answer.code >= killed;
+  return refused;
 }
 
 std::vector<std::string> user_options(const std::vector<std::string>& texts) {

@@ -50,12 +50,15 @@ void SlurmJobs::run(const std::vector<Job>& jobs, JobEvents& events) {
   jobs_ = &jobs;
   events_ = &events;
   own_.assign(jobs.size(), Own{});
+  names_.clear();
+  for (std::size_t k = 0; k < jobs.size(); ++k) names_[jobs[k].name] = k;
   if (jobs.empty()) return;
   limits_ = controller_.limits();
   take_up();
   while (!is_interrupted()) {
     submit_what_can();
-    if (!options_.follow || with_slurm() + not_taken() == 0) break;
+    if (!options_.follow && !is_unsure_) break;
+    if (with_slurm() + not_taken() == 0) break;
     rest();
     look();
   }
@@ -66,37 +69,47 @@ void SlurmJobs::take_up() {
   if (ledger_.entries().empty()) return;
   const auto there = controller_.queue();
   if (!there) throw MachineFailure("error: Slurm does not tell what is in its queue; give the same command again");
-  if (!take_up(*there)) ledger_.clear();
+  bool is_of_use = false;
+  for (const Entry& entry : std::vector<Entry>(ledger_.entries())) is_of_use = adopt(entry, *there, false) || is_of_use;
+  leave_out_what_ended_meanwhile();
+  const auto& entries = ledger_.entries();
+  is_unsure_ = std::any_of(entries.begin(), entries.end(), [](const Entry& entry) { return !entry.number; });
+  if (is_unsure_) heard_since_ = Clock::now();
+  if (!is_of_use) ledger_.clear();
   if (with_slurm() > 0) options_.say(fmt::format("{} of them are in Slurm's queue already", with_slurm()));
 }
 
-/// Whether anything that was submitted from here is in the queue, be it of these jobs or of others.
-bool SlurmJobs::take_up(const Queue& queue) {
-  std::map<std::string, std::size_t> names;
-  for (std::size_t k = 0; k < jobs_->size(); ++k) names[(*jobs_)[k].name] = k;
-  bool any = false;
-  for (const Entry& entry : ledger_.entries()) any = take_up(entry, queue, names) || any;
-  return any;
-}
-
-bool SlurmJobs::take_up(const Entry& entry, const Queue& queue, const std::map<std::string, std::size_t>& names) {
-  bool any = false;
+/// Whether any of it is in the queue or may still come there, be it of these jobs or of others that were submitted from
+/// here.
+bool SlurmJobs::adopt(const Entry& entry, const Queue& queue, bool ended_too) {
+  bool is_at_work = false;
+  std::string array;
   for (std::size_t task = 0; task < entry.jobs.size(); ++task) {
     const auto seen = queue.find({entry.word, task});
-    const bool is_there = seen != queue.end() && !seen->second.has_ended();
-    any = any || is_there;
-    const auto known = names.find(entry.jobs[task]);
-    if (known == names.end() || own_[known->second].at != At::start) continue;
+    if (seen == queue.end()) continue;
+    array = seen->second.array;
+    is_at_work = is_at_work || !seen->second.has_ended();
+    const auto known = names_.find(entry.jobs[task]);
+    if (known == names_.end() || (seen->second.has_ended() && !ended_too)) continue;
     Own& own = own_[known->second];
-    if (!is_there) {  // it may have ended since it was found not to be done
-      if (events_->was_done_elsewhere(known->second)) own.at = At::over;
-      continue;
-    }
+    if (own.at != At::start) continue;
     own.at = At::queued;
     own.place = {entry.word, task};
-    own.array = seen->second.array;
+    own.array = array;
   }
-  return any;
+  if (!entry.number && !array.empty()) ledger_.answered(entry.word, array);
+  return is_at_work || (!entry.number && array.empty());
+}
+
+// Between the check of the decks and now.
+void SlurmJobs::leave_out_what_ended_meanwhile() {
+  std::set<std::size_t> were_submitted;
+  for (const Entry& entry : ledger_.entries())
+    for (const std::string& name : entry.jobs)
+      if (const auto known = names_.find(name); known != names_.end()) were_submitted.insert(known->second);
+  for (const std::size_t k : were_submitted)
+    if (own_[k].at == At::start && events_->turn_of(k) == Turn::now && events_->was_done_elsewhere(k))
+      own_[k].at = At::over;
 }
 
 void SlurmJobs::look() {
@@ -107,12 +120,24 @@ void SlurmJobs::look() {
     return;
   }
   silence_was_told_ = false;
-  if (unsure_since_ && Clock::now() - *unsure_since_ >= options_.answers_within) {
-    take_up(*there);
-    unsure_since_.reset();
-  }
+  if (is_unsure_) look_for_unsure(*there);
   for (std::size_t k = 0; k < own_.size(); ++k)
     if (own_[k].at == At::queued) look_at(k, *there);
+}
+
+// What Slurm never said that it took is in its queue, or, once it has answered for a while, nowhere.
+void SlurmJobs::look_for_unsure(const Queue& queue) {
+  if (!heard_since_) heard_since_ = Clock::now();
+  if (Clock::now() - *heard_since_ < options_.answers_within) return;
+  for (const Entry& entry : std::vector<Entry>(ledger_.entries())) {
+    if (entry.number) continue;
+    adopt(entry, queue, true);
+    const auto& now = ledger_.entries();
+    const bool is_found =
+        std::any_of(now.begin(), now.end(), [&](const Entry& e) { return e.word == entry.word && e.number; });
+    if (!is_found) ledger_.answered(entry.word, "");
+  }
+  is_unsure_ = false;
 }
 
 void SlurmJobs::look_at(std::size_t job, const Queue& queue) {
@@ -191,7 +216,8 @@ void SlurmJobs::end(std::size_t job, JobEnd ending) {
 
 void SlurmJobs::leave(Own& own, bool with_log) {
   own.at = At::over;
-  if (room_) ++*room_;
+  if (room_) room_ = is_probe_ ? 1 : *room_ + 1;
+  is_probe_ = false;
   std::error_code gone_already;
   std::filesystem::remove(file_of(own, "note"), gone_already);
   if (with_log) std::filesystem::remove(file_of(own, "log"), gone_already);

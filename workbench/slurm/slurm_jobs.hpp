@@ -68,14 +68,15 @@ class SlurmJobs final : public JobDriver {
 
   using Queue = std::map<Place, Seen>;
   void take_up();
-  bool take_up(const Queue& queue);
-  bool take_up(const Entry& entry, const Queue& queue, const std::map<std::string, std::size_t>& names);
-  bool may_submit() const { return !(room_ && *room_ == 0) && !unsure_since_ && !is_interrupted(); }
+  bool adopt(const Entry& entry, const Queue& queue, bool ended_too);
+  void leave_out_what_ended_meanwhile();
+  bool may_submit() const { return !(room_ && *room_ == 0) && !is_unsure_ && !is_interrupted(); }
 
   void submit_what_can();
   std::vector<Wanted> wanted(bool& dropped);
   bool submit(const std::vector<Wanted>& wanted);
   std::string submit_some(Piece piece, const std::vector<std::string>& behind);
+  void note_taken(std::size_t jobs);
   Submission submit_piece(const Piece& piece, const std::vector<std::string>& behind);
   std::vector<std::string> options_of(const Piece& piece, const std::vector<std::string>& behind,
                                       const std::string& word) const;
@@ -83,6 +84,7 @@ class SlurmJobs final : public JobDriver {
   std::string script_of(const Piece& piece) const;
 
   void look();
+  void look_for_unsure(const Queue& queue);
   void look_at(std::size_t job, const Queue& queue);
   void note_begun(std::size_t job, const std::optional<Note>& note);
   void note_held(std::size_t job, const Seen& seen);
@@ -99,9 +101,12 @@ class SlurmJobs final : public JobDriver {
   const std::vector<Job>* jobs_ = nullptr;
   JobEvents* events_ = nullptr;
   std::vector<Own> own_;
-  std::optional<std::size_t> room_;                ///< once Slurm took no more: how many have ended since
-  std::optional<Clock::time_point> unsure_since_;  ///< it was asked to take some, and did not answer
+  std::optional<std::size_t> room_;               ///< once Slurm took no more: how many it may be asked to take
+  bool is_probe_ = false;                         ///< that it may take more was only guessed
+  bool is_unsure_ = false;                        ///< it was asked to take some, and no answer is known
+  std::optional<Clock::time_point> heard_since_;  ///< when it answered again
   bool full_was_told_ = false, silence_was_told_ = false;
+  std::map<std::string, std::size_t> names_;  ///< of the jobs
   std::set<std::string> held_told_;
   Clock::time_point began_ = Clock::now();
 };

@@ -22,7 +22,13 @@ std::string line_of(const std::vector<std::string>& command) {
 
 // Arrays of those that need nothing, then of those that need these, and so on; Slurm has the later ones wait.
 void SlurmJobs::submit_what_can() {
-  if (with_slurm() == 0 && room_ == 0) room_.reset();  // there is nothing whose end could be waited for
+  if (with_slurm() == 0 && room_ == 0) {  // there is nothing whose end could be waited for
+    room_.reset();
+    is_probe_ = false;
+  }
+  // Each array waits for all before it where only some may be at work at once: small ones would go one by one.
+  const std::size_t worth = std::min(static_cast<std::size_t>(options_.at_once), not_taken());
+  if (room_ && with_slurm() > 0 && *room_ < worth) return;
   while (may_submit()) {
     bool dropped = false;
     const std::vector<Wanted> some = wanted(dropped);
@@ -74,24 +80,34 @@ bool SlurmJobs::submit(const std::vector<Wanted>& wanted) {
 
 /// All of it or, where Slurm takes no more, a part; the number of the job.
 std::string SlurmJobs::submit_some(Piece piece, const std::vector<std::string>& behind) {
+  if (room_) piece.jobs.resize(std::min(piece.jobs.size(), *room_));
   for (;;) {
     const Submission done = submit_piece(piece, behind);
     if (!done.job.empty()) {
-      if (room_) *room_ -= std::min(*room_, piece.jobs.size());
+      note_taken(piece.jobs.size());
       return done.job;
     }
     if (done.is_unsure) {
       options_.say("Slurm does not answer: " + done.refusal + "; it is asked again");
-      unsure_since_ = Clock::now();
+      is_unsure_ = true;
+      heard_since_.reset();
       return "";
     }
     room_ = 0;
     if (piece.jobs.size() == 1 && with_slurm() == 0) throw MachineFailure("error: Slurm takes no job: " + done.refusal);
     if (!full_was_told_) options_.say("Slurm takes no more jobs now; the rest is submitted as others end");
     full_was_told_ = true;
-    if (piece.jobs.size() == 1) return "";
+    if (piece.jobs.size() == 1 || is_probe_) return "";
     piece.jobs.resize(piece.jobs.size() / 2);
   }
+}
+
+// Where it took all that there was room for, there may be room for more: jobs of others end, too.
+void SlurmJobs::note_taken(std::size_t jobs) {
+  if (!room_) return;
+  *room_ -= std::min(*room_, jobs);
+  is_probe_ = *room_ == 0;
+  if (is_probe_) room_ = jobs;
 }
 
 Submission SlurmJobs::submit_piece(const Piece& piece, const std::vector<std::string>& behind) {
@@ -99,6 +115,7 @@ Submission SlurmJobs::submit_piece(const Piece& piece, const std::vector<std::st
   for (const std::size_t job : piece.jobs) names.push_back((*jobs_)[job].name);
   const std::string word = ledger_.intend(names);
   Submission done = controller_.submit(options_of(piece, behind, word), script_of(piece), ledger_.descriptor());
+  if (!done.is_unsure) ledger_.answered(word, done.job);
   if (done.job.empty() && !done.is_limit && !done.is_unsure)
     throw MachineFailure(fmt::format("error: Slurm refuses the jobs: {}{}", done.refusal,
                                      with_slurm() > 0 ? "; those that it has taken before go on" : ""));
