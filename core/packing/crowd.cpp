@@ -102,16 +102,22 @@ Tally tally(const Crowd& crowd, const NeighbourList& list) {
 }
 }  // namespace
 
-std::vector<char> bulk_of(const Crowd& crowd) {
+std::vector<char> near_obstacles(const Crowd& crowd) {
   const Real margin = bulk_margin * mean_radius(crowd);
-  std::vector<char> bulk(crowd.moving);
-  for (std::size_t i = 0; i < crowd.moving; ++i) bulk[i] = crowd.walls.distance(crowd.ball[i].x) > margin;
-  if (crowd.ball.size() == crowd.moving) return bulk;
+  std::vector<char> near(crowd.moving, 0);
+  if (crowd.ball.size() == crowd.moving) return near;
   for (const Pair& p : near_pairs(crowd, margin))
     if (std::size_t(p.j) >= crowd.moving) {
       const Ball &a = crowd.ball[std::size_t(p.i)], &b = crowd.ball[std::size_t(p.j)];
-      if ((b.x - a.x).norm() - b.r <= margin) bulk[std::size_t(p.i)] = 0;
+      if ((b.x - a.x).norm() - b.r <= margin) near[std::size_t(p.i)] = 1;
     }
+  return near;
+}
+
+std::vector<char> bulk_of(const Crowd& crowd) {
+  const Real margin = bulk_margin * mean_radius(crowd);
+  std::vector<char> bulk = near_obstacles(crowd);
+  for (std::size_t i = 0; i < crowd.moving; ++i) bulk[i] = !bulk[i] && crowd.walls.distance(crowd.ball[i].x) > margin;
   return bulk;
 }
 

@@ -67,6 +67,8 @@ struct Largest {
 
 /// What is nearer to a wall or an obstacle is not bulk [mean radii].
 inline constexpr Real bulk_margin = 3;
+/// Which moving elements are within 3 mean radii of an obstacle.
+std::vector<char> near_obstacles(const Crowd&);
 /// Which moving elements are farther than 3 mean radii from walls and obstacles.
 std::vector<char> bulk_of(const Crowd&);
 

@@ -170,6 +170,18 @@ void reach_coordination(Crowd& crowd, Real asked, bool bulk, const Tell& tell) {
   if (Z < asked) refuse_coordination(crowd, asked, bulk, Z, overlap);
 }
 
+/// The mean of a few elements' contacts says nothing, and the others are pressed as they are to be.
+bool is_nearly_all_balanced(const Crowd& crowd, Packing& packing) {
+  constexpr long few = 100;
+  const std::vector<char> inside = bulk_of(crowd);
+  const long count = std::count(inside.begin(), inside.end(), 1);
+  if (count >= few || packing.around.position.empty()) return false;
+  packing.warnings.push_back("only " + std::to_string(count) +
+                             " elements are in the bulk, too few to count their contacts: radii were balanced, and no "
+                             "coordination number was looked for");
+  return true;
+}
+
 }  // namespace
 
 void forced_filling(Packing& packing, const ForcedFilling& rule) {
@@ -179,11 +191,14 @@ void forced_filling(Packing& packing, const ForcedFilling& rule) {
     throw std::invalid_argument("there are no elements to fill with: free filling comes first");
   if (rule.balanced && packing.dispersion.spread == 0)
     throw std::invalid_argument("radii cannot be balanced where they may not differ: give them a spread");
+  if (rule.balanced && packing.around.position.empty())
+    packing.warnings.emplace_back("there are no obstacles near which radii could be balanced: they stay as drawn");
   place_all(packing, rule.tolerance);
   std::vector<Index> order;
   Crowd crowd = crowd_of(packing, order);
   if (rule.balanced) balance(crowd, packing.dispersion.spread, packing.tell);
-  reach_coordination(crowd, rule.coordination, rule.bulk, packing.tell);
+  if (!(rule.balanced && is_nearly_all_balanced(crowd, packing)))
+    reach_coordination(crowd, rule.coordination, rule.bulk, packing.tell);
   put_back(crowd, order, packing);
   packing.seconds += std::chrono::duration<Real>(std::chrono::steady_clock::now() - start).count();
 }

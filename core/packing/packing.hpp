@@ -73,7 +73,8 @@ struct ForcedFilling {
   Real coordination = 6.2;  ///< contacts of an element with other elements, mean over those that count
   Real tolerance = 0.3;     ///< largest overlap / (R1 + R2) of an element when it is inserted
   bool bulk = false;        ///< those in the bulk alone count: farther than 3 mean radii from walls and obstacles
-  bool balanced = false;    ///< radii near walls and obstacles are adapted, within the law's range, until pressed alike
+  bool balanced =
+      false;  ///< radii near obstacles are adapted, within the law's range, until elements are pressed alike
 };
 /// Places the waiting elements and re-arranges all; then all radii grow or shrink by one common factor until
 /// the coordination number is reached. What finds no place is put in smaller and grows.

@@ -22,10 +22,9 @@ class ForcedFilling final : public PackingStep {
   Param<std::string> radii{
       this,
       {.name = "radii",
-       .doc = "as-drawn: all grow or shrink by one factor; balanced: before that those near walls and obstacles are "
-              "adapted, within their law's range, until their elements are pressed alike, also in rooms that are "
-              "hardly an "
-              "element wide",
+       .doc =
+           "as-drawn: all grow or shrink by one factor; balanced: before that those near obstacles are adapted, within "
+           "their law's range, until elements are pressed alike, also in rooms that are hardly an element wide",
        .fallback = "as-drawn",
        .choices = {"as-drawn", "balanced"}}};
   Param<Real> tolerance{this,

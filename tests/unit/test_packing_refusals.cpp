@@ -114,9 +114,13 @@ TEST(Packing, can_be_interrupted_in_each_of_its_long_loops) {
   };
   EXPECT_GT(pauses_of({}, free), 20000);
   const Packing start = free_filling(cube(400));
-  const int of_filling = pauses_of(start, [](Packing p) { forced_filling(p); });
-  EXPECT_GT(of_filling, 400);
-  EXPECT_GT(pauses_of(start, [](Packing p) { forced_filling(p, {.balanced = true}); }), of_filling + 400);
+  EXPECT_GT(pauses_of(start, [](Packing p) { forced_filling(p); }), 400);
+  Request beside = cube(400);
+  beside.around = {{{.5, .5, .5}}, {.2}};
+  const Packing around = free_filling(beside);
+  const int drawn = pauses_of(around, [](Packing p) { forced_filling(p, {.coordination = 5}); });
+  EXPECT_GT(pauses_of(around, [](Packing p) { forced_filling(p, {.coordination = 5, .balanced = true}); }),
+            drawn + 400);
   Packing packed = start;
   forced_filling(packed);
   // A round solves equations in many iterations, each as long as a step of arranging.
@@ -157,6 +161,9 @@ TEST(Packing, refuses_tolerances_that_make_no_sense_and_steps_without_elements) 
   EXPECT_THAT(message_of([&] { relaxation(none); }), HasSubstr("free filling comes first"));
   Packing p = free_filling(cube(50));
   EXPECT_THAT(message_of([&] { forced_filling(p, {6.2, 1}); }), HasSubstr("overlap tolerance"));
+  p.dispersion.spread = 0;
+  EXPECT_THAT(message_of([&] { forced_filling(p, {.balanced = true}); }), HasSubstr("give them a spread"));
+  p.dispersion.spread = 0.25;
   EXPECT_THAT(message_of([&] { relaxation(p, {0, 0.05}); }), HasSubstr("must be positive"));
   EXPECT_THAT(message_of([&] { relaxation(p, {1e-7, 0.9}); }), HasSubstr("below 0.5"));
 }
