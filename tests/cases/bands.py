@@ -582,16 +582,16 @@ def multi_fibre():
         none(f"ratio {ratio}: no break at all", len(inside) == 0)
     peaks = {ratio: max(result.curve("force")["force"]) for ratio, result in runs.items()}
     below("peak of the weak interface over that of the strong one", peaks[2] / peaks[0.5], 0.6)
-    near("peak, weak interface, recorded", peaks[2], 12.60e-3, 0.05)
-    near("peak, strong interface, recorded", peaks[0.5], 26.15e-3, 0.05)
+    near("peak, weak interface, recorded", peaks[2], 13.20e-3, 0.05)
+    near("peak, strong interface, recorded", peaks[0.5], 27.14e-3, 0.05)
     sys.path.insert(0, str(SOURCE / "tools"))
     from hashin import transverse_modulus
-    for count, elements, coarse in ((3, 5000, 0.85), (9, 4000, 0.9), (12, 3500, 0.85)):
+    for count, elements, coarse in ((3, 5000, 0.85), (9, 4000, 0.88), (12, 3500, 0.8)):
         result = run("multi-fibre/tangent.xml", fibres=count, count=elements)
         R, force = result.summary["packing"][-1]["mean_radius"], result.curve("force")
         across, along = side - 2 * R, 30e-6 - 2 * R  # through the centres of the outer elements
         modulus = force["force"][-1] / (across * along) / (force["displacement"][-1] / across)
-        low, high = transverse_modulus(count * math.pi * 25e-12 / side**2, 3.9e9, 0.37, 86.9e9, 0.23)
+        low, high = transverse_modulus(count * math.pi * 25e-12 / across**2, 3.9e9, 0.37, 86.9e9, 0.23)
         # So coarse, a gap between fibres holds one element: it is a little softer than a solid (xml-cases/multi-fibre/README.md).
         below(f"{count} fibres: {coarse:g} of the lower bound over the modulus {modulus / 1e9:.3g} GPa", coarse * low / modulus, 1)
         below(f"{count} fibres: modulus over the upper bound", modulus / high, 1)
