@@ -1,7 +1,7 @@
 #pragma once
 // Runs the scenes of a study, and calibrations: each as the program itself runs a deck, in a process and a folder of its
-// own, several at once. What came of a scene is known by the hash of all that went in, so that nothing is run twice, and what a kill
-// has stopped goes on.
+// own, several at once. What came of a scene is known by the hash of all that went in, so that nothing is run twice, and
+// what a kill has stopped goes on.
 
 #include <atomic>
 #include <filesystem>

@@ -48,7 +48,7 @@ Real change_for(const Hold& hold, Real wanted) {
 }
 
 struct Round {
-  std::size_t near = 0, loose = 0;  ///< elements that are not in the bulk, and those of them that are not held
+  std::size_t near = 0, loose = 0;  ///< elements near obstacles, and those of them that are not held
   Real most = 0;                    ///< largest change of a radius, over itself
 };
 

@@ -230,6 +230,25 @@ TEST(Packing, counts_contacts_in_the_bulk_if_told_to) {
               HasSubstr("no element is in the bulk"));
 }
 
+TEST(Packing, presses_the_bulk_as_balanced_radii_are_to_be) {
+  Packing p = free_filling(cube(8000));
+  forced_filling(p, {.bulk = true});
+  std::vector<Real> pressing(p.position.size(), 0);  // overlaps over the diameter
+  for (const Pair& pair : find_pairs_around(p.position, p.radius, p.position.size(), 0)) {
+    const auto i = std::size_t(pair.i), j = std::size_t(pair.j);
+    const Real overlap = p.radius[i] + p.radius[j] - (p.position[i] - p.position[j]).norm();
+    pressing[i] += overlap / (2 * p.radius[i]);
+    pressing[j] += overlap / (2 * p.radius[j]);
+  }
+  std::vector<Index> order;
+  const std::vector<char> bulk = bulk_of(crowd_of(p, order));
+  Real sum = 0, count = 0;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    if (bulk[k]) sum += pressing[std::size_t(order[k])], ++count;
+  EXPECT_GT(count, 4000);
+  EXPECT_NEAR(sum / count, 0.012, 0.0006) << "wanted_pressing of balance.cpp";
+}
+
 TEST(Packing, ends_where_elements_just_hold_each_other_if_a_low_coordination_number_is_asked) {
   Packing p = free_filling(cube(1000));
   forced_filling(p, {.coordination = 1, .tolerance = 0.3});

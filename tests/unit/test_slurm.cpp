@@ -255,7 +255,7 @@ TEST(SlurmJobs, are_submitted_again_if_the_request_was_lost) {
   expect_each_once(ends, 5);
 }
 
-TEST(SlurmJobs, of_a_command_that_leaves_are_found_by_the_next_though_the_answer_was_lost) {
+TEST(SlurmJobs, are_not_left_before_it_is_known_whether_they_were_taken) {
   const Scratch scratch;
   Queue queue(scratch);
   queue.answers_lost = 1;
